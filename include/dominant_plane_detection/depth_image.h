@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace dominant_plane_detection {
+
+/// A depth image that somebody else owns; read in place, never copied.
+///
+/// 16-bit pixels hold multiples of `metres_per_unit` with 0 for "no reading"; float pixels hold
+/// metres with NaN, infinities and values <= 0 for "no reading" (REP 118).
+struct DepthView {
+  enum class Type : std::uint8_t { kUint16, kFloat32 };
+
+  const void* data = nullptr;
+  int width = 0;                   ///< [px]
+  int height = 0;                  ///< [px]
+  std::size_t step = 0;            ///< [byte] from one row to the next, at least width * pixel size
+  Type type = Type::kUint16;       ///< native byte order
+  float metres_per_unit = 0.001F;  ///< [m] one unit of a 16-bit pixel; float pixels ignore it
+
+  /// @return the first pixel of row `v`; `T` has to be the pixel type that `type` names.
+  template <typename T>
+  const T* row(int v) const {
+    return reinterpret_cast<const T*>(static_cast<const std::uint8_t*>(data) +
+                                      static_cast<std::size_t>(v) * step);
+  }
+};
+
+/// @return [byte] the size of one pixel.
+inline std::size_t pixelSize(DepthView::Type type) {
+  return type == DepthView::Type::kUint16 ? sizeof(std::uint16_t) : sizeof(float);
+}
+
+/// @return [m] the factor that turns a pixel of the view into metres.
+inline float metresPerUnit(const DepthView& depth) {
+  return depth.type == DepthView::Type::kUint16 ? depth.metres_per_unit : 1.0F;
+}
+
+}  // namespace dominant_plane_detection

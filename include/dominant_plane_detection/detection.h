@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace dominant_plane_detection {
+
+/// Why there is a plane, or none. The values are those of DominantPlane.msg.
+enum class State : std::uint8_t {
+  kFound = 0,
+  kNoDepth,           ///< no pixel has a reading within the range limits
+  kTooFewPoints,      ///< too few readings for a region to start from
+  kNoRegion,          ///< no seed lies on a plane
+  kTooSmall,          ///< the largest region covers too little of the image
+  kTooTilted,         ///< the largest region is no ground: its normal is too far from "up"
+  kOutOfHeightRange,  ///< the largest region is no ground: the camera's height over it
+  kBadInput,          ///< image and camera do not fit together, or cannot be read
+};
+
+/// @return the name in DominantPlane.msg and planes.csv, for example "TOO_SMALL".
+const char* stateName(State state);
+
+/// What a pixel shows, one byte a pixel.
+enum class Label : std::uint8_t {
+  kUnknown = 0,  ///< no reading, out of range, or a speck at the ground's height
+  kGround = 1,
+  kObstacle = 2,  ///< above the ground
+  kDropOff = 3,   ///< below the ground
+};
+
+/// Where the expected "up" direction came from. The values are those of DominantPlane.msg.
+enum class UpSource : std::uint8_t { kNone = 0, kFixed, kImu, kTf };
+
+/// The dominant plane of one depth image, in the depth optical frame.
+///
+/// Without a plane (state other than kFound) the numbers are NaN, the counts 0 and every label
+/// kUnknown.
+struct Detection {
+  State state = State::kNoDepth;
+  std::string reason;  ///< empty when found, otherwise one sentence with the numbers
+  /// [-] unit normal from the plane to the camera ("up" for a floor): normal . r + distance = 0.
+  Eigen::Vector3d normal = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  double distance = std::numeric_limits<double>::quiet_NaN();  ///< [m] camera's height, >= 0
+  /// Of [normal, distance]; the first element is -1 while it is not known.
+  Eigen::Matrix4d covariance = unknownCovariance();
+  double mean_square_error = std::numeric_limits<double>::quiet_NaN();  ///< [m^2] Eq. 8, inliers
+  std::size_t inliers = 0;                                              ///< [px] labelled ground
+  std::size_t valid_pixels = 0;  ///< [px] with a reading within the range limits
+  UpSource up_source = UpSource::kNone;
+  int width = 0;                     ///< [px]
+  int height = 0;                    ///< [px]
+  std::vector<std::uint8_t> labels;  ///< `Label` of each pixel, row-major
+
+  bool found() const { return state == State::kFound; }
+  Label label(int u, int v) const {
+    return static_cast<Label>(labels[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+                                     static_cast<std::size_t>(u)]);
+  }
+  /// @return [-] inliers as a share of the valid pixels; NaN without a plane.
+  double inlierShare() const {
+    return found() ? static_cast<double>(inliers) / static_cast<double>(valid_pixels)
+                   : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  static Eigen::Matrix4d unknownCovariance() {
+    Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+    covariance(0, 0) = -1.0;
+    return covariance;
+  }
+};
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "dominant_plane_detection/parameters.h"
+
+namespace dominant_plane_detection {
+
+/// What users are told about a parameter.
+struct ParameterInfo {
+  const char* name;
+  const char* unit;
+  double min;
+  double max;
+  const char* text;
+};
+
+/// The one list of all parameters: name, unit, limits and text, with the member that holds it.
+///
+/// Readers of YAML, dynamic_reconfigure and the command line all walk this list; a test holds the
+/// .cfg, the YAML files and the README against it.
+/// @param parameters a `Parameters`, const or not.
+/// @param visit called as visit(ParameterInfo, member) with a member of type Algorithm, int or
+/// double; the limits of an Algorithm have no meaning.
+template <typename ParametersT, typename Visitor>
+void visitParameters(ParametersT& parameters, Visitor&& visit) {
+  using Info = ParameterInfo;
+  auto& p = parameters;
+  visit(Info{"algorithm", "-", 0, 1,
+             "grid: region growing over image tiles; kdtree: Algorithm 1 point by point"},
+        p.algorithm);
+  visit(Info{"random_seed", "-", 0, 1000000,
+             "of the generator that draws the seeds, restarted at each image"},
+        p.random_seed);
+  visit(Info{"range_min", "m", 0.05, 20, "nearest depth that is trusted"}, p.range_min);
+  visit(Info{"range_max", "m", 0.1, 40, "farthest depth that is trusted"}, p.range_max);
+  visit(
+      Info{"noise_constant", "m", 0.0001, 0.1, "constant part of the standard deviation of depth"},
+      p.noise.constant);
+  visit(Info{"noise_quadratic", "1/m", 0, 0.1, "standard deviation of depth per squared depth"},
+        p.noise.quadratic);
+  visit(Info{"seeds", "#", 1, 10000, "most seeds that are tried"}, p.seeds);
+  visit(Info{"subsampling", "px", 1, 16, "every n-th point of every n-th row (kdtree only)"},
+        p.subsampling);
+  visit(Info{"delta", "m", 0, 1, "farthest a candidate may be from the region, constant part"},
+        p.delta.offset);
+  visit(
+      Info{"delta_sigmas", "-", 0, 100, "farthest a candidate may be from the region, in sigma(z)"},
+      p.delta.sigmas);
+  visit(Info{"epsilon", "m", 0, 1, "square root of the largest mean square error, constant part"},
+        p.epsilon.offset);
+  visit(Info{"epsilon_sigmas", "-", 0, 100,
+             "square root of the largest mean square error, in sigma(z)"},
+        p.epsilon.sigmas);
+  visit(Info{"gamma", "m", 0, 1, "farthest a candidate may be from the plane, constant part"},
+        p.gamma.offset);
+  visit(
+      Info{"gamma_sigmas", "-", 0, 100, "farthest a candidate may be from the plane, in sigma(z)"},
+      p.gamma.sigmas);
+  visit(Info{"ground_band", "m", 0, 1, "largest height of a ground pixel, constant part"},
+        p.ground_band.offset);
+  visit(Info{"ground_band_sigmas", "-", 0, 100, "largest height of a ground pixel, in sigma(z)"},
+        p.ground_band.sigmas);
+  visit(Info{"min_patch", "px", 0, 1000000, "smallest connected piece of ground"}, p.min_patch);
+  visit(
+      Info{"min_share", "-", 0, 1, "smallest plane, as a share of the pixels with a trusted depth"},
+      p.min_share);
+  visit(Info{"expected_up_x", "-", -1, 1, "expected up direction in the optical frame, x (right)"},
+        p.expected_up.x());
+  visit(Info{"expected_up_y", "-", -1, 1, "expected up direction in the optical frame, y (down)"},
+        p.expected_up.y());
+  visit(
+      Info{"expected_up_z", "-", -1, 1, "expected up direction in the optical frame, z (forward)"},
+      p.expected_up.z());
+  visit(
+      Info{"max_tilt", "rad", 0, 3.15, "largest angle between the plane's normal and expected up"},
+      p.max_tilt);
+  visit(Info{"min_height", "m", 0, 100, "lowest camera height over the plane"}, p.min_height);
+  visit(Info{"max_height", "m", 0.01, 100, "highest camera height over the plane"}, p.max_height);
+}
+
+}  // namespace dominant_plane_detection

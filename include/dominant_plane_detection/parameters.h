@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dominant_plane_detection/noise_model.h"
+
+namespace dominant_plane_detection {
+
+enum class Algorithm : std::uint8_t {
+  kGrid,    ///< region growing over image tiles
+  kKdtree,  ///< Algorithm 1 point by point, as published
+};
+
+/// Everything that can be set about the detection. Names, order, ranges and texts for users stand
+/// once, in parameter_table.h.
+struct Parameters {
+  Algorithm algorithm = Algorithm::kGrid;
+  int random_seed = 1;     ///< [-] of the generator that draws the seeds, restarted at each image
+  double range_min = 0.5;  ///< [m] nearest depth that is trusted
+  double range_max = 4.0;  ///< [m] farthest depth that is trusted
+  NoiseModel noise;        ///< sigma(z)
+
+  int seeds = 64;                  ///< [#] most seeds that are tried
+  int subsampling = 2;             ///< [px] n of "every n-th point of every n-th row"; kdtree only
+  DepthThreshold delta{0.0, 6.0};  ///< [m] farthest a candidate may be from the region
+  DepthThreshold epsilon{0.0, 1.0};  ///< [m] square root of the largest mean square error
+  DepthThreshold gamma{0.0, 3.0};    ///< [m] farthest a candidate may be from the plane
+
+  DepthThreshold ground_band{0.0, 3.0};  ///< [m] largest height of a pixel that is still ground
+  int min_patch = 400;                   ///< [px] smallest connected piece of ground
+  double min_share = 0.05;               ///< [-] smallest plane, as a share of the valid pixels
+  Eigen::Vector3d expected_up{0.0, -1.0, 0.0};  ///< [-] in the optical frame, of any length
+  double max_tilt = 1.05;    ///< [rad] largest angle between normal and expected up
+  double min_height = 0.0;   ///< [m] lowest camera height over the plane
+  double max_height = 10.0;  ///< [m] highest camera height over the plane
+};
+
+/// Finds every value that cannot be used.
+/// @return one sentence each, with name, range, unit and what came; empty when all is well.
+std::vector<std::string> findErrors(const Parameters& parameters);
+
+/// Sets a parameter from text, as a command line or a YAML file gives it.
+/// @throw std::invalid_argument for a name that does not exist (lists those that do) and for a text
+/// that is not a value of the parameter's type.
+void setParameter(Parameters& parameters, const std::string& name, const std::string& value);
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,176 @@
+#include "dominant_plane_detection/dominant_plane_detector.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "dominant_plane_detection/ground_segmentation.h"
+#include "dominant_plane_detection/tile_moments.h"
+#include "plane_search.h"
+#include "plane_selection.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+using Sentence = std::array<char, 256>;
+
+void requireValid(const Parameters& parameters) {
+  std::string all;
+  for (const std::string& error : findErrors(parameters)) all += (all.empty() ? "" : "; ") + error;
+  if (!all.empty()) throw std::invalid_argument(all);
+}
+
+/// @return whether image and camera can be used; otherwise `sentence` says why not.
+bool check(const DepthView& depth, const CameraModel& camera, const Prior& prior,
+           Sentence& sentence) {
+  const auto refuse = [&](const char* format, auto... values) {
+    std::snprintf(sentence.data(), sentence.size(), format, values...);
+    return false;
+  };
+  if (depth.data == nullptr || depth.width <= 0 || depth.height <= 0) {
+    return refuse("Expected a depth image, got an empty one of %d x %d pixels.", depth.width,
+                  depth.height);
+  }
+  const std::size_t row = static_cast<std::size_t>(depth.width) * pixelSize(depth.type);
+  if (depth.step < row) {
+    return refuse("Expected rows of at least %zu bytes, got a step of %zu.", row, depth.step);
+  }
+  if (!camera.valid()) {
+    return refuse("Expected finite, positive focal lengths, got fx = %g, fy = %g.", camera.fx,
+                  camera.fy);
+  }
+  if (camera.width != depth.width || camera.height != depth.height) {
+    return refuse("Expected a camera of the image's size %d x %d, got %d x %d.", depth.width,
+                  depth.height, camera.width, camera.height);
+  }
+  const double up_length = prior.expected_up ? prior.expected_up->norm() : 1.0;
+  if (!(up_length > 1e-3 && std::isfinite(up_length))) {
+    return refuse("Expected an up direction, got a vector of length %g.", up_length);
+  }
+  return true;
+}
+
+}  // namespace
+
+class DominantPlaneDetector::Implementation {
+ public:
+  explicit Implementation(const Parameters& parameters) : parameters_(parameters) {
+    requireValid(parameters);
+    detection_.reason.reserve(Sentence().size());
+  }
+
+  const Parameters& parameters() const { return parameters_; }
+
+  const Detection& detect(const DepthView& depth, const CameraModel& camera, const Prior& prior) {
+    clear(depth, prior);
+    Sentence sentence{};
+    if (!check(depth, camera, prior, sentence)) return refuse(State::kBadInput, sentence);
+    rays_.build(camera);
+    const ImageInput input{depth, rays_, {metresPerUnit(depth), rangeMin(), rangeMax()}};
+    computeTileMoments(depth, rays_, rangeMin(), rangeMax(), tiles_);
+    detection_.valid_pixels =
+        static_cast<std::size_t>(std::accumulate(tiles_.count.begin(), tiles_.count.end(), 0.0));
+    if (detection_.valid_pixels == 0) {
+      std::snprintf(sentence.data(), sentence.size(),
+                    "None of %d x %d pixels has a reading between %.2f and %.2f m.", depth.width,
+                    depth.height, parameters_.range_min, parameters_.range_max);
+      return refuse(State::kNoDepth, sentence);
+    }
+
+    PlaneSelection selection(limits(prior));
+    const std::size_t seeds_tried = parameters_.algorithm == Algorithm::kGrid
+                                        ? grid_.run(tiles_, parameters_, selection)
+                                        : kdtree_.run(input, parameters_, selection);
+    if (seeds_tried == 0) {
+      std::snprintf(sentence.data(), sentence.size(),
+                    "%zu pixels have a reading, too few or too scattered for a region to start.",
+                    detection_.valid_pixels);
+      return refuse(State::kTooFewPoints, sentence);
+    }
+    if (!selection.found()) {
+      selection.explain(seeds_tried, sentence);
+      return refuse(selection.refusal(), sentence);
+    }
+    return accept(depth, selection.plane());
+  }
+
+ private:
+  float rangeMin() const { return static_cast<float>(parameters_.range_min); }
+  float rangeMax() const { return static_cast<float>(parameters_.range_max); }
+
+  /// Everything as it is without a plane; memory is kept.
+  void clear(const DepthView& depth, const Prior& prior) {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    detection_.state = State::kNoDepth;
+    detection_.reason.clear();
+    detection_.normal.setConstant(kNaN);
+    detection_.distance = kNaN;
+    detection_.covariance = Detection::unknownCovariance();
+    detection_.mean_square_error = kNaN;
+    detection_.inliers = 0;
+    detection_.valid_pixels = 0;
+    detection_.up_source = prior.expected_up ? prior.up_source : UpSource::kFixed;
+    detection_.width = std::max(depth.width, 0);
+    detection_.height = std::max(depth.height, 0);
+  }
+
+  PlaneLimits limits(const Prior& prior) const {
+    const auto valid = static_cast<double>(detection_.valid_pixels);
+    return {prior.expected_up.value_or(parameters_.expected_up).normalized(), parameters_.max_tilt,
+            prior.height_range ? prior.height_range->min : parameters_.min_height,
+            prior.height_range ? prior.height_range->max : parameters_.max_height,
+            static_cast<std::size_t>(std::ceil(parameters_.min_share * valid))};
+  }
+
+  const Detection& refuse(State state, const Sentence& sentence) {
+    detection_.state = state;
+    detection_.reason.assign(sentence.data());
+    detection_.valid_pixels = 0;
+    detection_.labels.assign(
+        static_cast<std::size_t>(detection_.width) * static_cast<std::size_t>(detection_.height),
+        static_cast<std::uint8_t>(Label::kUnknown));
+    return detection_;
+  }
+
+  const Detection& accept(const DepthView& depth, const HessePlane& plane) {
+    detection_.state = State::kFound;
+    detection_.normal = -plane.normal;
+    detection_.distance = plane.distance;
+    const SegmentationLimits limits{rangeMin(), rangeMax(), parameters_.noise,
+                                    parameters_.ground_band,
+                                    static_cast<std::size_t>(parameters_.min_patch)};
+    const SegmentationCounts counts = segmentation_.label(
+        depth, rays_, detection_.normal, detection_.distance, limits, detection_.labels);
+    detection_.inliers = counts.ground;
+    detection_.mean_square_error = counts.mean_square_error;
+    return detection_;
+  }
+
+  Parameters parameters_;
+  RayTable rays_;
+  TileMoments tiles_;
+  GridSearch grid_;
+  KdtreeSearch kdtree_;
+  GroundSegmentation segmentation_;
+  Detection detection_;
+};
+
+DominantPlaneDetector::DominantPlaneDetector(const Parameters& parameters)
+    : implementation_(std::make_unique<Implementation>(parameters)) {}
+DominantPlaneDetector::~DominantPlaneDetector() = default;
+DominantPlaneDetector::DominantPlaneDetector(DominantPlaneDetector&&) noexcept = default;
+DominantPlaneDetector& DominantPlaneDetector::operator=(DominantPlaneDetector&&) noexcept = default;
+
+const Detection& DominantPlaneDetector::detect(const DepthView& depth, const CameraModel& camera,
+                                               const Prior& prior) {
+  return implementation_->detect(depth, camera, prior);
+}
+
+const Parameters& DominantPlaneDetector::parameters() const {
+  return implementation_->parameters();
+}
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,188 @@
+#include "dominant_plane_detection/grid_region_growing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tile_neighbours.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+/// A tile with fewer readings lies on an edge, or the sensor is guessing there.
+constexpr float kMinFill = 0.5F;
+/// How many standard deviations about a tile's mean stand for "its points".
+constexpr double kSpread = 2.0;
+/// The plane is fitted again whenever the region has grown by this factor.
+constexpr double kRefitGrowth = 1.25;
+/// A tile farther off than this many times gamma is not worth a fit of its own.
+constexpr double kHopeless = 1.5;
+/// Tiles that a region starts from, its seed among them: three times three, less a third.
+constexpr std::size_t kMinStart = 6;
+constexpr int kRefineSteps = 5;
+/// A plane that moves by less than this between two steps, far below any sensor's noise, is final.
+constexpr double kSettledNormal = 1e-4;    // [rad]
+constexpr double kSettledDistance = 1e-4;  // [m]
+
+}  // namespace
+
+void GridRegionGrowing::start(const TileMoments& tiles, const GrowthThresholds& thresholds) {
+  tiles_ = &tiles;
+  noise_ = thresholds.noise;
+  min_count_ = kMinFill * kTileSize * kTileSize;
+  const std::size_t size = tiles.size();
+  for (auto* values : {&delta_, &epsilon2_, &gamma_, &radius_}) values->resize(size);
+  claimed_.assign(size, 0);
+  joined_.assign(size, 0);
+  growth_ = 0;
+  available_points_ = 0;
+  for (std::size_t tile = 0; tile < size; ++tile) {
+    const double z = static_cast<double>(tiles.z[tile]);
+    const double epsilon = thresholds.epsilon.at(z, noise_);
+    delta_[tile] = static_cast<float>(thresholds.delta.at(z, noise_));
+    epsilon2_[tile] = static_cast<float>(epsilon * epsilon);
+    gamma_[tile] = static_cast<float>(thresholds.gamma.at(z, noise_));
+    // Points spread evenly over a length have a variance of a third of its half squared.
+    radius_[tile] = std::sqrt(3.0F * (tiles.xx[tile] + tiles.yy[tile] + tiles.zz[tile]));
+    if (usable(tile)) available_points_ += static_cast<std::size_t>(tiles.count[tile]);
+  }
+}
+
+GridRegionGrowing::Height GridRegionGrowing::height(std::size_t tile,
+                                                    const HessePlane& plane) const {
+  const TileMoments& t = *tiles_;
+  const Eigen::Vector3d& n = plane.normal;
+  const double variance =
+      n.x() * (n.x() * t.xx[tile] + 2.0 * (n.y() * t.xy[tile] + n.z() * t.xz[tile])) +
+      n.y() * (n.y() * t.yy[tile] + 2.0 * n.z() * t.yz[tile]) + n.z() * n.z() * t.zz[tile];
+  return {plane.signedDistance(t.centre(tile)), std::max(variance, 0.0)};
+}
+
+bool GridRegionGrowing::within(const Height& height, double limit) const {
+  const double rest = limit - std::abs(height.mean);
+  return rest > 0.0 && kSpread * kSpread * height.variance < rest * rest;
+}
+
+/// Whether the points of two tiles come closer than delta, as if they were spread evenly about
+/// their centres.
+bool GridRegionGrowing::close(std::size_t tile, std::size_t neighbour) const {
+  const float reach = delta_[tile] + radius_[tile] + radius_[neighbour];
+  const float dx = tiles_->x[tile] - tiles_->x[neighbour];
+  const float dy = tiles_->y[tile] - tiles_->y[neighbour];
+  const float dz = tiles_->z[tile] - tiles_->z[neighbour];
+  return dx * dx + dy * dy + dz * dz < reach * reach;
+}
+
+void GridRegionGrowing::claim(std::size_t tile) {
+  if (claimed_[tile]) return;
+  claimed_[tile] = 1;
+  if (usable(tile)) available_points_ -= static_cast<std::size_t>(tiles_->count[tile]);
+}
+
+void GridRegionGrowing::join(std::size_t tile) {
+  const double count = static_cast<double>(tiles_->count[tile]);
+  moments_.add(count, tiles_->centre(tile), tiles_->scatter(tile));
+  sum_epsilon2_ += count * static_cast<double>(epsilon2_[tile]);
+  joined_[tile] = growth_;
+  region_.push_back(tile);
+}
+
+bool GridRegionGrowing::refit() {
+  const std::optional<PlaneFit> fit = moments_.fit();
+  if (!fit) return false;
+  fit_ = *fit;
+  fitted_count_ = moments_.count();
+  return true;
+}
+
+/// The region's first plane: a tile is too small to give one that holds far beyond it, the nine
+/// tiles about the seed are ten times better. Those that lie on something else are left out once.
+bool GridRegionGrowing::startRegion(std::size_t seed) {
+  const auto begin = [&] {
+    ++growth_;
+    region_.clear();
+    moments_ = PlaneMoments();
+    sum_epsilon2_ = 0.0;
+  };
+  begin();
+  join(seed);
+  forEachNeighbour(seed, tiles_->columns, tiles_->rows, [&](std::size_t tile) {
+    if (usable(tile) && close(tile, seed)) join(tile);
+  });
+  if (!refit()) return false;
+  const std::vector<std::size_t>::size_type tried = region_.size();
+  std::size_t start[9];
+  std::copy(region_.begin(), region_.end(), start);
+  const HessePlane first = fit_.plane;
+  begin();
+  for (std::size_t i = 0; i < tried; ++i) {
+    if (within(height(start[i], first), static_cast<double>(gamma_[start[i]]))) join(start[i]);
+  }
+  return region_.size() >= kMinStart && joined_[seed] == growth_ && refit() &&
+         fit_.mean_square_error * moments_.count() < sum_epsilon2_;
+}
+
+bool GridRegionGrowing::tryToJoin(std::size_t tile) {
+  const double count = static_cast<double>(tiles_->count[tile]);
+  const double gamma = static_cast<double>(gamma_[tile]);
+  const double sum_limit = sum_epsilon2_ + count * static_cast<double>(epsilon2_[tile]);
+  const Height height_now = height(tile, fit_.plane);
+  if (!within(height_now, kHopeless * gamma)) return false;
+  // Any plane's error bounds that of the best one (lambda_min(A) <= m^T A m), so that most tiles
+  // need no fit of their own. The error at the last fit still stands for the tiles since.
+  const double sum_bound = fit_.mean_square_error * moments_.count() +
+                           count * (height_now.variance + height_now.mean * height_now.mean);
+  if (within(height_now, gamma) && sum_bound < sum_limit) return true;
+  PlaneMoments with_tile = moments_;
+  with_tile.add(count, tiles_->centre(tile), tiles_->scatter(tile));
+  const std::optional<PlaneFit> fit = with_tile.fit();
+  return fit && within(height(tile, fit->plane), gamma) &&
+         fit->mean_square_error * with_tile.count() < sum_limit;
+}
+
+std::optional<GridRegionGrowing::Region> GridRegionGrowing::grow(std::size_t seed) {
+  claim(seed);
+  if (!usable(seed) || !startRegion(seed)) return std::nullopt;
+  // First come, first served: rings about the seed, as good as "nearest first" on a grid.
+  for (std::size_t i = 0; i < region_.size(); ++i) {
+    const std::size_t from = region_[i];
+    forEachNeighbour(from, tiles_->columns, tiles_->rows, [&](std::size_t tile) {
+      if (!usable(tile) || joined_[tile] == growth_) return;
+      if (close(tile, from) && tryToJoin(tile)) join(tile);
+    });
+    if (moments_.count() > kRefitGrowth * fitted_count_) refit();
+  }
+  refit();
+  for (const std::size_t tile : region_) claim(tile);
+  return Region{fit_, static_cast<std::size_t>(moments_.count())};
+}
+
+std::optional<GridRegionGrowing::Region> GridRegionGrowing::refine(const HessePlane& plane) {
+  std::optional<Region> region;
+  HessePlane current = plane;
+  for (int step = 0; step < kRefineSteps; ++step) {
+    PlaneMoments moments;
+    region_.clear();
+    std::size_t points = 0;
+    for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
+      if (!usable(tile) || !within(height(tile, current), static_cast<double>(gamma_[tile]))) {
+        continue;
+      }
+      const double sigma = noise_.sigma(static_cast<double>(tiles_->z[tile]));
+      moments.add(static_cast<double>(tiles_->count[tile]), tiles_->centre(tile),
+                  tiles_->scatter(tile), 1.0 / (sigma * sigma));
+      points += static_cast<std::size_t>(tiles_->count[tile]);
+      region_.push_back(tile);
+    }
+    const std::optional<PlaneFit> fit = moments.fit();
+    if (!fit) return std::nullopt;
+    region = Region{*fit, points};
+    const bool settled = (fit->plane.normal - current.normal).norm() < kSettledNormal &&
+                         std::abs(fit->plane.distance - current.distance) < kSettledDistance;
+    current = fit->plane;
+    if (settled) break;
+  }
+  for (const std::size_t tile : region_) claim(tile);
+  return region;
+}
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,34 @@
+#include "plane_search.h"
+
+namespace dominant_plane_detection {
+
+std::size_t GridSearch::run(const TileMoments& tiles, const Parameters& parameters,
+                            PlaneSelection& selection) {
+  growing_.start(tiles, growthThresholds(parameters));
+  draw_.restart(static_cast<std::uint32_t>(parameters.random_seed));
+  const auto columns = static_cast<std::size_t>(tiles.columns);
+  const std::size_t lower_half = static_cast<std::size_t>(tiles.rows / 2) * columns;
+  std::size_t tried = 0;
+  const auto search = [&](std::size_t begin, std::size_t end) {
+    draw_.setRange(begin, end);
+    const std::size_t limit = tried + static_cast<std::size_t>(parameters.seeds);
+    while (tried < limit && !draw_.empty() && growing_.availablePoints() > selection.points()) {
+      const std::size_t seed = draw_.draw();
+      if (!growing_.available(seed)) continue;
+      ++tried;
+      const auto region = growing_.grow(seed);
+      if (!region) continue;
+      if (!selection.admissible(region->fit.plane)) {
+        selection.consider(region->fit.plane, region->points);
+        continue;
+      }
+      const auto refined = growing_.refine(region->fit.plane);
+      if (refined) selection.consider(refined->fit.plane, refined->points);
+    }
+  };
+  search(lower_half, tiles.size());
+  if (!selection.found()) search(0, lower_half);
+  return tried;
+}
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "dominant_plane_detection/camera_model.h"
+#include "dominant_plane_detection/depth_image.h"
+
+namespace dominant_plane_detection {
+
+/// Which readings count, and what they mean.
+struct ReadingRange {
+  float metres_per_unit;  ///< [m]
+  float min;              ///< [m]
+  float max;              ///< [m]
+};
+
+/// What every loop over the pixels reads.
+struct ImageInput {
+  const DepthView& depth;
+  const RayTable& rays;
+  ReadingRange range;
+};
+
+}  // namespace dominant_plane_detection

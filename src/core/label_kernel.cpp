@@ -1,0 +1,115 @@
+#include "label_kernel.h"
+
+#include <algorithm>
+
+#include "dominant_plane_detection/detection.h"
+
+// Compiled once for each instruction set, see tile_moments_kernel.cpp.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "label_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "pixel_rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace dominant_plane_detection {
+namespace HWY_NAMESPACE {
+
+/// The rule in vectors. Made once: the labels are bytes, which may alias anything, so the compiler
+/// would load the rule again after each of them.
+struct VectorRule {
+  Vector normal_x, normal_y, normal_z, distance, band, band_z2;
+
+  explicit VectorRule(const LabelRule& rule) {
+    const Floats d;
+    normal_x = hn::Set(d, rule.normal[0]);
+    normal_y = hn::Set(d, rule.normal[1]);
+    normal_z = hn::Set(d, rule.normal[2]);
+    distance = hn::Set(d, rule.distance);
+    band = hn::Set(d, rule.band);
+    band_z2 = hn::Set(d, rule.band_z2);
+  }
+};
+
+/// Labels the pixels of one vector.
+/// @return [m^2] the squared heights of those that are ground, 0 elsewhere.
+HWY_INLINE Vector labelVector(const Points& points, const VectorRule& rule, std::uint8_t* labels) {
+  const Floats d;
+  const hn::Rebind<std::int32_t, Floats> wide;
+  const hn::Rebind<std::uint8_t, Floats> bytes;
+  const auto along_ray = hn::MulAdd(rule.normal_x, points.ray_x,
+                                    hn::MulAdd(rule.normal_y, points.ray_y, rule.normal_z));
+  const auto height = hn::MulAdd(points.z, along_ray, rule.distance);
+  const auto band = hn::MulAdd(hn::Mul(points.z, points.z), rule.band_z2, rule.band);
+  const auto ground = hn::And(points.valid, hn::Le(hn::Abs(height), band));
+
+  const auto constant = [&](Label label) {
+    return hn::Set(wide, static_cast<std::int32_t>(label));
+  };
+  const auto off_plane = hn::IfThenElse(hn::RebindMask(wide, hn::Gt(height, hn::Zero(d))),
+                                        constant(Label::kObstacle), constant(Label::kDropOff));
+  const auto any =
+      hn::IfThenElse(hn::RebindMask(wide, ground), constant(Label::kGround), off_plane);
+  const auto label = hn::IfThenElseZero(hn::RebindMask(wide, points.valid), any);
+  hn::StoreU(hn::DemoteTo(bytes, label), bytes, labels);
+  return hn::IfThenElseZero(ground, hn::Mul(height, height));
+}
+
+template <bool kSeparable, typename Pixel>
+HWY_INLINE double labelImage(const ImageInput& input, const LabelRule& rule, std::uint8_t* labels) {
+  const Floats d;
+  const VectorRule vector_rule(rule);
+  const ReadingRange range = input.range;
+  const int step = static_cast<int>(hn::Lanes(d));
+  const int width = input.depth.width;
+  const int whole = width - width % kTileSize;
+  double sum = 0.0;
+  for (int v = 0; v < input.depth.height; ++v, labels += width) {
+    const auto row = pixelRow<kSeparable, Pixel>(input, 0, v);
+    auto squares = hn::Zero(d);
+    for (int u = 0; u < whole; u += step) {
+      const auto points = loadPoints<kSeparable>(row, u, range);
+      squares = hn::Add(squares, labelVector(points, vector_rule, labels + u));
+    }
+    if (whole < width) {
+      PaddedRow<Pixel> padded;
+      const auto rest = padded.template fill<kSeparable>(
+          pixelRow<kSeparable, Pixel>(input, whole, v), width - whole);
+      std::uint8_t rest_labels[kTileSize];
+      for (int i = 0; i < kTileSize; i += step) {
+        const auto points = loadPoints<kSeparable>(rest, i, range);
+        squares = hn::Add(squares, labelVector(points, vector_rule, rest_labels + i));
+      }
+      std::copy_n(rest_labels, width - whole, labels + whole);
+    }
+    sum += static_cast<double>(hn::GetLane(hn::SumOfLanes(d, squares)));
+  }
+  return sum;
+}
+
+double labelAll(const ImageInput& input, const LabelRule& rule, std::uint8_t* labels) {
+  const bool separable = input.rays.separable();
+  if (input.depth.type == DepthView::Type::kUint16) {
+    return separable ? labelImage<true, std::uint16_t>(input, rule, labels)
+                     : labelImage<false, std::uint16_t>(input, rule, labels);
+  }
+  return separable ? labelImage<true, float>(input, rule, labels)
+                   : labelImage<false, float>(input, rule, labels);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace dominant_plane_detection
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace dominant_plane_detection {
+
+HWY_EXPORT(labelAll);
+
+double runLabelKernel(const ImageInput& input, const LabelRule& rule, std::uint8_t* labels) {
+  return HWY_DYNAMIC_DISPATCH(labelAll)(input, rule, labels);
+}
+
+}  // namespace dominant_plane_detection
+#endif

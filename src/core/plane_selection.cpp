@@ -1,0 +1,61 @@
+#include "plane_selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace dominant_plane_detection {
+
+void PlaneSelection::consider(const HessePlane& plane, std::size_t points) {
+  const bool large = points >= std::max<std::size_t>(limits_.min_points, 1);
+  const State verdict = large ? checkPose(plane) : State::kTooSmall;
+  if (verdict == State::kFound) {
+    if (points > best_.points) best_ = {plane, points};
+  } else if (points > refused_.points) {
+    refused_ = {plane, points};
+    refusal_ = verdict;
+  }
+}
+
+bool PlaneSelection::admissible(const HessePlane& plane) const {
+  return checkPose(plane) == State::kFound;
+}
+
+State PlaneSelection::checkPose(const HessePlane& plane) const {
+  if (tilt(plane) > limits_.max_tilt) return State::kTooTilted;
+  if (plane.distance < limits_.min_height || plane.distance > limits_.max_height) {
+    return State::kOutOfHeightRange;
+  }
+  return State::kFound;
+}
+
+double PlaneSelection::tilt(const HessePlane& plane) const {
+  // The Hesse normal points away from the camera, hence the minus.
+  return std::acos(std::clamp(-plane.normal.dot(limits_.expected_up), -1.0, 1.0));
+}
+
+void PlaneSelection::explain(std::size_t seeds_tried, std::array<char, 256>& sentence) const {
+  const auto print = [&](const char* format, auto... values) {
+    std::snprintf(sentence.data(), sentence.size(), format, values...);
+  };
+  switch (refusal_) {
+    case State::kTooSmall:
+      print("The largest plane holds %zu pixels, fewer than the required %zu (min_share).",
+            refused_.points, limits_.min_points);
+      break;
+    case State::kTooTilted:
+      print(
+          "The largest plane is tilted by %.3f rad from the expected up direction, more than "
+          "max_tilt = %.3f rad.",
+          tilt(refused_.plane), limits_.max_tilt);
+      break;
+    case State::kOutOfHeightRange:
+      print("The camera is %.3f m over the largest plane, expected %.3f to %.3f m.",
+            refused_.plane.distance, limits_.min_height, limits_.max_height);
+      break;
+    default:
+      print("None of %zu seeds lies on a plane.", seeds_tried);
+  }
+}
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "dominant_plane_detection/detection.h"
+#include "dominant_plane_detection/hesse_plane.h"
+
+namespace dominant_plane_detection {
+
+/// What a plane has to be like to be the ground.
+struct PlaneLimits {
+  Eigen::Vector3d expected_up;  ///< [-] unit, in the optical frame
+  double max_tilt;              ///< [rad]
+  double min_height;            ///< [m]
+  double max_height;            ///< [m]
+  std::size_t min_points;       ///< [px]
+};
+
+/// Keeps the largest plane that is within the limits, and remembers why the largest one that is not
+/// was refused.
+class PlaneSelection {
+ public:
+  explicit PlaneSelection(const PlaneLimits& limits) : limits_(limits) {}
+
+  /// @param points [px] that lie on the plane.
+  void consider(const HessePlane& plane, std::size_t points);
+
+  /// @return whether the plane is within the limits, but for its size.
+  bool admissible(const HessePlane& plane) const;
+
+  bool found() const { return best_.points > 0; }
+  const HessePlane& plane() const { return best_.plane; }
+  std::size_t points() const { return best_.points; }  ///< [px] 0 when nothing was found
+
+  /// @return why nothing was found; kNoRegion when no plane was ever considered.
+  State refusal() const { return refusal_; }
+  /// Writes the refusal as one sentence with its numbers.
+  void explain(std::size_t seeds_tried, std::array<char, 256>& sentence) const;
+
+ private:
+  struct Candidate {
+    HessePlane plane;
+    std::size_t points = 0;
+  };
+
+  State checkPose(const HessePlane& plane) const;
+  double tilt(const HessePlane& plane) const;
+
+  PlaneLimits limits_;
+  Candidate best_;
+  Candidate refused_;
+  State refusal_ = State::kNoRegion;
+};
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,20 @@
+#include "dominant_plane_detection/tile_moments.h"
+
+#include "tile_moments_kernel.h"
+
+namespace dominant_plane_detection {
+
+void TileMoments::resize(int image_width, int image_height) {
+  columns = (image_width + kTileSize - 1) / kTileSize;
+  rows = (image_height + kTileSize - 1) / kTileSize;
+  const auto tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  for (auto* values : {&count, &x, &y, &z, &xx, &xy, &xz, &yy, &yz, &zz}) values->resize(tiles);
+}
+
+void computeTileMoments(const DepthView& depth, const RayTable& rays, float range_min,
+                        float range_max, TileMoments& tiles) {
+  tiles.resize(depth.width, depth.height);
+  runTileMomentsKernel({depth, rays, {metresPerUnit(depth), range_min, range_max}}, tiles);
+}
+
+}  // namespace dominant_plane_detection

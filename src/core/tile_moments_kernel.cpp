@@ -1,0 +1,154 @@
+#include "tile_moments_kernel.h"
+
+#include <algorithm>
+#include <array>
+
+// Highway compiles what stands between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE once for each
+// instruction set, by including this file again.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tile_moments_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "pixel_rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace dominant_plane_detection {
+namespace HWY_NAMESPACE {
+
+constexpr int kSums = 10;
+
+/// Sums over the readings of a tile, relative to a reference point near them: close to the origin
+/// of the sums, float keeps the plane's thickness.
+template <bool kSeparable, typename Pixel>
+HWY_INLINE void sumTile(const PixelRow<Pixel>* rows, int row_count, const ReadingRange& range,
+                        const std::array<float, 3>& reference, std::array<float, kSums>& totals) {
+  const Floats d;
+  const auto x0 = hn::Set(d, reference[0]);
+  const auto y0 = hn::Set(d, reference[1]);
+  const auto z0 = hn::Set(d, reference[2]);
+  totals.fill(0.0F);
+  for (int i = 0; i < kTileSize; i += static_cast<int>(hn::Lanes(d))) {
+    auto n = hn::Zero(d), sx = n, sy = n, sz = n;
+    auto sxx = n, sxy = n, sxz = n, syy = n, syz = n, szz = n;
+    for (int row = 0; row < row_count; ++row) {
+      const auto point = loadPoints<kSeparable>(rows[row], i, range);
+      const auto dx = hn::IfThenElseZero(point.valid, hn::MulSub(point.z, point.ray_x, x0));
+      const auto dy = hn::IfThenElseZero(point.valid, hn::MulSub(point.z, point.ray_y, y0));
+      const auto dz = hn::IfThenElseZero(point.valid, hn::Sub(point.z, z0));
+      n = hn::Add(n, hn::IfThenElseZero(point.valid, hn::Set(d, 1.0F)));
+      sx = hn::Add(sx, dx);
+      sy = hn::Add(sy, dy);
+      sz = hn::Add(sz, dz);
+      sxx = hn::MulAdd(dx, dx, sxx);
+      sxy = hn::MulAdd(dx, dy, sxy);
+      sxz = hn::MulAdd(dx, dz, sxz);
+      syy = hn::MulAdd(dy, dy, syy);
+      syz = hn::MulAdd(dy, dz, syz);
+      szz = hn::MulAdd(dz, dz, szz);
+    }
+    std::size_t sum = 0;
+    for (const auto& lanes : {n, sx, sy, sz, sxx, sxy, sxz, syy, syz, szz}) {
+      totals[sum++] += hn::GetLane(hn::SumOfLanes(d, lanes));
+    }
+  }
+}
+
+HWY_INLINE void storeTile(const std::array<float, kSums>& totals,
+                          const std::array<float, 3>& reference, std::size_t tile,
+                          TileMoments& tiles) {
+  const float count = totals[0];
+  const float present = count > 0.0F ? 1.0F : 0.0F;
+  const float inverse = present / std::max(count, 1.0F);
+  const float mx = totals[1] * inverse;
+  const float my = totals[2] * inverse;
+  const float mz = totals[3] * inverse;
+  tiles.count[tile] = count;
+  tiles.x[tile] = present * reference[0] + mx;
+  tiles.y[tile] = present * reference[1] + my;
+  tiles.z[tile] = present * reference[2] + mz;
+  tiles.xx[tile] = totals[4] * inverse - mx * mx;
+  tiles.xy[tile] = totals[5] * inverse - mx * my;
+  tiles.xz[tile] = totals[6] * inverse - mx * mz;
+  tiles.yy[tile] = totals[7] * inverse - my * my;
+  tiles.yz[tile] = totals[8] * inverse - my * mz;
+  tiles.zz[tile] = totals[9] * inverse - mz * mz;
+}
+
+/// @return one of the tile's points, its middle one if that has a reading; the origin if none has.
+template <bool kSeparable, typename Pixel>
+HWY_INLINE std::array<float, 3> referencePoint(const PixelRow<Pixel>* rows, int row_count,
+                                               const ReadingRange& range) {
+  const int middle = row_count / 2 * kTileSize + kTileSize / 2;
+  for (int i = 0; i < row_count * kTileSize; ++i) {
+    const int pixel = (middle + i) % (row_count * kTileSize);
+    const PixelRow<Pixel>& row = rows[pixel / kTileSize];
+    const int column = pixel % kTileSize;
+    const float z = static_cast<float>(row.pixels[column]) * range.metres_per_unit;
+    const float x = row.x[column];
+    const float y = row.y[kSeparable ? 0 : column];
+    // Where the lens model cannot be inverted, x is NaN.
+    if (z >= range.min && z <= range.max && x == x) return {z * x, z * y, z};
+  }
+  return {0.0F, 0.0F, 0.0F};
+}
+
+template <bool kSeparable, typename Pixel>
+HWY_INLINE void computeTile(const PixelRow<Pixel>* rows, int row_count, const ReadingRange& range,
+                            std::size_t tile, TileMoments& tiles) {
+  const std::array<float, 3> reference = referencePoint<kSeparable>(rows, row_count, range);
+  std::array<float, kSums> totals;
+  sumTile<kSeparable>(rows, row_count, range, reference, totals);
+  storeTile(totals, reference, tile, tiles);
+}
+
+template <bool kSeparable, typename Pixel>
+HWY_INLINE void computeTiles(const ImageInput& input, TileMoments& tiles) {
+  const DepthView& depth = input.depth;
+  const int whole_columns = depth.width / kTileSize;
+  std::size_t tile = 0;
+  PixelRow<Pixel> rows[kTileSize];
+  for (int top = 0; top < depth.height; top += kTileSize) {
+    const int row_count = std::min(kTileSize, depth.height - top);
+    for (int column = 0; column < whole_columns; ++column) {
+      for (int row = 0; row < row_count; ++row) {
+        rows[row] = pixelRow<kSeparable, Pixel>(input, column * kTileSize, top + row);
+      }
+      computeTile<kSeparable>(rows, row_count, input.range, tile++, tiles);
+    }
+    if (whole_columns == tiles.columns) continue;
+    PaddedRow<Pixel> padded[kTileSize];
+    for (int row = 0; row < row_count; ++row) {
+      const int left = whole_columns * kTileSize;
+      rows[row] = padded[row].template fill<kSeparable>(
+          pixelRow<kSeparable, Pixel>(input, left, top + row), depth.width - left);
+    }
+    computeTile<kSeparable>(rows, row_count, input.range, tile++, tiles);
+  }
+}
+
+void computeAllTiles(const ImageInput& input, TileMoments& tiles) {
+  const bool separable = input.rays.separable();
+  if (input.depth.type == DepthView::Type::kUint16) {
+    separable ? computeTiles<true, std::uint16_t>(input, tiles)
+              : computeTiles<false, std::uint16_t>(input, tiles);
+  } else {
+    separable ? computeTiles<true, float>(input, tiles) : computeTiles<false, float>(input, tiles);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace dominant_plane_detection
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace dominant_plane_detection {
+
+HWY_EXPORT(computeAllTiles);
+
+void runTileMomentsKernel(const ImageInput& input, TileMoments& tiles) {
+  HWY_DYNAMIC_DISPATCH(computeAllTiles)(input, tiles);
+}
+
+}  // namespace dominant_plane_detection
+#endif
