@@ -1,0 +1,212 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "dominant_plane_detection/dominant_plane_detector.h"
+#include "support/count_allocations.h"
+#include "support/synthetic_depth.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+const Eigen::Vector3d kUp = upOf(0.5, 0.1);
+constexpr double kHeight = 0.8;
+
+double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::acos(std::min(a.dot(b), 1.0));
+}
+
+/// A floor with a wall-to-wall box across the view: the floor behind it is cut off.
+OwnedDepth<float> cutFloor(const CameraModel& camera) {
+  OwnedDepth<float> depth = planeDepth(camera, kUp, kHeight);
+  for (int v = camera.height / 2; v < camera.height / 2 + camera.height / 8; ++v) {
+    for (int u = 0; u < camera.width; ++u) depth.at(u, v) *= 0.6F;
+  }
+  return depth;
+}
+
+class DetectorAlgorithm : public testing::TestWithParam<Algorithm> {
+ protected:
+  DetectorAlgorithm() { parameters_.algorithm = GetParam(); }
+  Parameters parameters_;
+};
+INSTANTIATE_TEST_SUITE_P(Algorithms, DetectorAlgorithm,
+                         testing::Values(Algorithm::kGrid, Algorithm::kKdtree));
+
+TEST_P(DetectorAlgorithm, FindsANoisyFloorWhereItIs) {
+  const CameraModel camera = testCamera();
+  const auto depth = inMillimetres(planeDepth(camera, kUp, kHeight), 1.425e-3);
+  DominantPlaneDetector detector(parameters_);
+  const Detection& detection = detector.detect(depth.view(), camera);
+  ASSERT_EQ(detection.state, State::kFound) << detection.reason;
+  EXPECT_TRUE(detection.reason.empty());
+  EXPECT_LT(angle(detection.normal, kUp), 0.001);
+  EXPECT_NEAR(detection.distance, kHeight, 0.001);
+  EXPECT_NEAR(detection.normal.norm(), 1.0, 1e-9);
+  EXPECT_GT(detection.inlierShare(), 0.99);
+  EXPECT_LT(std::sqrt(detection.mean_square_error), 0.005);
+  EXPECT_EQ(detection.covariance(0, 0), -1.0);
+  EXPECT_EQ(detection.up_source, UpSource::kFixed);
+}
+
+TEST_P(DetectorAlgorithm, LabelsTheFloorBehindAnObstacle) {
+  const CameraModel camera = testCamera();
+  const auto depth = inMillimetres(cutFloor(camera));
+  DominantPlaneDetector detector(parameters_);
+  const Detection& detection = detector.detect(depth.view(), camera);
+  ASSERT_TRUE(detection.found()) << detection.reason;
+  EXPECT_LT(angle(detection.normal, kUp), 0.001);
+  EXPECT_EQ(detection.label(320, 220), Label::kGround);    // behind, 2 m away
+  EXPECT_EQ(detection.label(320, 270), Label::kObstacle);  // the box
+  EXPECT_EQ(detection.label(320, 450), Label::kGround);    // in front
+}
+
+TEST_P(DetectorAlgorithm, DegenerateImagesAreResultsWithAReason) {
+  DominantPlaneDetector detector(parameters_);
+  const auto expect = [&](const OwnedDepth<std::uint16_t>& depth, State state) {
+    const Detection& detection =
+        detector.detect(depth.view(), testCamera(depth.width, depth.height));
+    EXPECT_EQ(stateName(detection.state), stateName(state)) << detection.reason;
+    EXPECT_FALSE(detection.reason.empty());
+    EXPECT_TRUE(std::isnan(detection.distance) && std::isnan(detection.normal.x()));
+    EXPECT_EQ(detection.inliers, 0U);
+    EXPECT_EQ(detection.labels, std::vector<std::uint8_t>(depth.pixels.size(), 0));
+  };
+  expect(OwnedDepth<std::uint16_t>(640, 480), State::kNoDepth);
+  OwnedDepth<std::uint16_t> far(640, 480);
+  far.pixels.assign(far.pixels.size(), 65535);
+  expect(far, State::kNoDepth);
+  OwnedDepth<std::uint16_t> one(1, 1);
+  one.at(0, 0) = 1000;
+  expect(one, State::kTooFewPoints);
+  OwnedDepth<std::uint16_t> two(640, 480);
+  two.at(100, 400) = two.at(300, 420) = 1000;
+  expect(two, State::kTooFewPoints);
+}
+
+TEST_P(DetectorAlgorithm, OddSizesWork) {
+  parameters_.subsampling = 1;
+  DominantPlaneDetector detector(parameters_);
+  for (const int width : {161, 320, 333}) {
+    const CameraModel camera = testCamera(width, 121);
+    const auto depth = inMillimetres(planeDepth(camera, kUp, kHeight), 1.425e-3);
+    const Detection& detection = detector.detect(depth.view(), camera);
+    ASSERT_TRUE(detection.found()) << detection.reason;
+    EXPECT_LT(angle(detection.normal, kUp), 0.005);
+    EXPECT_NEAR(detection.distance, kHeight, 0.004);
+  }
+}
+
+TEST_P(DetectorAlgorithm, FloatImagesWithEveryKindOfNumber) {
+  const CameraModel camera = testCamera();
+  OwnedDepth<float> depth = planeDepth(camera, kUp, kHeight);
+  for (std::size_t i = 0; i < depth.pixels.size(); i += 9) {
+    const float odd[] = {
+        std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+        -std::numeric_limits<float>::infinity(), -1.0F,
+        std::numeric_limits<float>::max(),       std::numeric_limits<float>::denorm_min()};
+    depth.pixels[i] = odd[(i / 9) % 6];
+  }
+  DominantPlaneDetector detector(parameters_);
+  const Detection& detection = detector.detect(depth.view(), camera);
+  ASSERT_TRUE(detection.found()) << detection.reason;
+  EXPECT_LT(angle(detection.normal, kUp), 1e-4);
+  EXPECT_NEAR(detection.distance, kHeight, 1e-4);
+  EXPECT_EQ(detection.label(0, 479), detection.label(1, 479));
+}
+
+TEST_P(DetectorAlgorithm, TheResultDependsOnNothingThatWasSeenBefore) {
+  const CameraModel camera = testCamera();
+  const auto first = inMillimetres(cutFloor(camera), 1.425e-3, 1);
+  const auto second = inMillimetres(planeDepth(camera, upOf(0.8), 0.5), 1.425e-3, 2);
+  DominantPlaneDetector fresh(parameters_), used(parameters_);
+  const Detection expected = fresh.detect(first.view(), camera);
+  used.detect(second.view(), camera);
+  used.detect(OwnedDepth<std::uint16_t>(64, 48).view(), testCamera(64, 48));
+  const Detection& again = used.detect(first.view(), camera);
+  EXPECT_EQ(again.normal, expected.normal);
+  EXPECT_EQ(again.distance, expected.distance);
+  EXPECT_EQ(again.labels, expected.labels);
+}
+
+TEST(Detector, PlanesThatAreNoGround) {
+  const CameraModel camera = testCamera();
+  const auto wall = inMillimetres(planeDepth(camera, {0.0, 0.0, -1.0}, 2.0));
+  DominantPlaneDetector detector;
+  EXPECT_STREQ(stateName(detector.detect(wall.view(), camera).state), "TOO_TILTED");
+  const auto floor = inMillimetres(planeDepth(camera, kUp, kHeight));
+  Prior prior;
+  prior.height_range = Prior::HeightRange{1.0, 2.0};
+  const Detection& high = detector.detect(floor.view(), camera, prior);
+  EXPECT_STREQ(stateName(high.state), "OUT_OF_HEIGHT_RANGE");
+  EXPECT_EQ(high.reason,
+            "The camera is 0.800 m over the largest plane, expected 1.000 to 2.000 m.");
+  Parameters parameters;
+  parameters.min_share = 1.0;
+  OwnedDepth<std::uint16_t> half = floor;
+  for (int v = 240; v < 300; ++v) {
+    for (int u = 0; u < 640; ++u)
+      half.at(u, v) = static_cast<std::uint16_t>(600 + 90 * ((u * 7 + v * 13) % 11));
+  }
+  DominantPlaneDetector strict(parameters);
+  EXPECT_STREQ(stateName(strict.detect(half.view(), camera).state), "TOO_SMALL");
+  OwnedDepth<std::uint16_t> chaos(640, 480);
+  std::mt19937 generator(3);
+  for (auto& pixel : chaos.pixels) pixel = static_cast<std::uint16_t>(600 + generator() % 3000);
+  EXPECT_STREQ(stateName(detector.detect(chaos.view(), camera).state), "NO_REGION");
+}
+
+TEST(Detector, ThePriorSaysWhereUpIs) {
+  const CameraModel camera = testCamera();
+  const auto wall = inMillimetres(planeDepth(camera, {0.0, 0.0, -1.0}, 2.0));
+  DominantPlaneDetector detector;
+  Prior prior;
+  prior.expected_up = Eigen::Vector3d(0.0, 0.0, -3.0);
+  prior.up_source = UpSource::kImu;
+  const Detection& detection = detector.detect(wall.view(), camera, prior);
+  ASSERT_TRUE(detection.found()) << detection.reason;
+  EXPECT_NEAR(detection.distance, 2.0, 1e-3);
+  EXPECT_EQ(detection.up_source, UpSource::kImu);
+}
+
+TEST(Detector, BadInputIsExplained) {
+  const CameraModel camera = testCamera();
+  const auto depth = inMillimetres(planeDepth(camera, kUp, kHeight));
+  DominantPlaneDetector detector;
+  const auto expectBad = [&](const DepthView& view, const CameraModel& model, const char* word,
+                             const Prior& prior = Prior()) {
+    const Detection& detection = detector.detect(view, model, prior);
+    EXPECT_STREQ(stateName(detection.state), "BAD_INPUT");
+    EXPECT_NE(detection.reason.find(word), std::string::npos) << detection.reason;
+  };
+  expectBad(DepthView(), camera, "empty");
+  expectBad(depth.view(), testCamera(320, 240), "320 x 240");
+  expectBad(depth.view(), CameraModel(), "focal length");
+  DepthView view = depth.view();
+  view.step = 100;
+  expectBad(view, camera, "step");
+  Prior prior;
+  prior.expected_up = Eigen::Vector3d::Zero();
+  expectBad(depth.view(), camera, "up direction", prior);
+}
+
+TEST(Detector, AWarmDetectorAllocatesNothing) {
+  const CameraModel camera = testCamera();
+  const auto floor = inMillimetres(cutFloor(camera), 1.425e-3);
+  const auto wall = inMillimetres(planeDepth(camera, {0.0, 0.0, -1.0}, 2.0));
+  const OwnedDepth<std::uint16_t> nothing(640, 480);
+  DominantPlaneDetector detector;
+  const auto detectAll = [&] {
+    ASSERT_TRUE(detector.detect(floor.view(), camera).found());
+    ASSERT_EQ(detector.detect(wall.view(), camera).state, State::kTooTilted);
+    ASSERT_EQ(detector.detect(nothing.view(), camera).state, State::kNoDepth);
+  };
+  detectAll();
+  const std::size_t before = allocationCount();
+  detectAll();
+  EXPECT_EQ(allocationCount() - before, 0U);
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection

@@ -1,0 +1,71 @@
+#include "dominant_plane_detection/parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "dominant_plane_detection/dominant_plane_detector.h"
+#include "dominant_plane_detection/parameter_table.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+TEST(Parameters, DefaultsAreValid) { EXPECT_TRUE(findErrors(Parameters()).empty()); }
+
+TEST(Parameters, TableNamesAreUnique) {
+  const Parameters parameters;
+  std::set<std::string> names;
+  visitParameters(parameters, [&](const ParameterInfo& info, const auto&) {
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+  });
+  EXPECT_GT(names.size(), 20U);
+}
+
+TEST(Parameters, AllErrorsAtOnceWithNameRangeAndUnit) {
+  Parameters parameters;
+  parameters.range_min = std::numeric_limits<double>::quiet_NaN();
+  parameters.seeds = 0;
+  parameters.min_height = 5.0;
+  parameters.max_height = 4.0;
+  parameters.expected_up.setZero();
+  const std::vector<std::string> errors = findErrors(parameters);
+  ASSERT_EQ(errors.size(), 5U);  // range_min twice: out of range, and not below range_max
+  EXPECT_EQ(errors[0], "range_min: expected 0.05 to 20 m, got nan");
+  EXPECT_EQ(errors[1], "seeds: expected 1 to 10000 #, got 0");
+  EXPECT_NE(errors[3].find("min_height has to be smaller than max_height"), std::string::npos);
+  EXPECT_NE(errors[4].find("expected_up"), std::string::npos);
+  EXPECT_THROW(DominantPlaneDetector{parameters}, std::invalid_argument);
+}
+
+TEST(Parameters, SetFromText) {
+  Parameters parameters;
+  setParameter(parameters, "range_max", "3.5");
+  setParameter(parameters, "seeds", "7");
+  setParameter(parameters, "algorithm", "kdtree");
+  setParameter(parameters, "expected_up_z", "-1e-1");
+  EXPECT_EQ(parameters.range_max, 3.5);
+  EXPECT_EQ(parameters.seeds, 7);
+  EXPECT_EQ(parameters.algorithm, Algorithm::kKdtree);
+  EXPECT_EQ(parameters.expected_up.z(), -0.1);
+}
+
+TEST(Parameters, RefuseWhatIsNoValueOrNoName) {
+  Parameters parameters;
+  for (const char* text : {"", "3.5m", "x", "3,5", " 3"}) {
+    EXPECT_THROW(setParameter(parameters, "range_max", text), std::invalid_argument) << text;
+  }
+  EXPECT_THROW(setParameter(parameters, "seeds", "1.5"), std::invalid_argument);
+  EXPECT_THROW(setParameter(parameters, "algorithm", "ransac"), std::invalid_argument);
+  EXPECT_EQ(parameters.range_max, Parameters().range_max);
+  try {
+    setParameter(parameters, "range_maximum", "3");
+    FAIL() << "an unknown name was taken";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("range_max,"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "dominant_plane_detection/camera_model.h"
+#include "dominant_plane_detection/depth_image.h"
+
+namespace dominant_plane_detection {
+
+/// A depth image with what is known to be true about it.
+struct ReferenceImage {
+  std::string name;
+  cv::Mat depth;                                 ///< 16-bit
+  cv::Mat ground;                                ///< 8-bit, 255 = ground
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< [-] normal towards the camera, optical frame
+  double height = 0.0;                           ///< [m] camera over the plane
+};
+
+/// A folder of depth images, masks and planes (depth/, mask/, reference.csv).
+struct ReferenceSet {
+  std::string name;
+  CameraModel camera;
+  float metres_per_unit = 0.001F;  ///< [m]
+  double range_min = 0.5;          ///< [m] working range
+  double range_max = 4.0;          ///< [m]
+  std::vector<ReferenceImage> images;
+
+  DepthView view(const ReferenceImage& image) const;
+};
+
+/// @return the folder with the recordings: DPD_RECORDINGS, or else the one the build was told.
+std::string recordingsFolder();
+
+/// The reference sets by their names in the folder of recordings.
+/// @return a set without images where the folder is missing.
+ReferenceSet loadRobotLab();
+ReferenceSet loadCabinet();
+ReferenceSet loadLowRobot();
+
+/// Reads `folder`/depth, `folder`/mask and `folder`/reference.csv into the set.
+void loadImages(const std::string& folder, ReferenceSet& set);
+
+}  // namespace dominant_plane_detection
