@@ -37,4 +37,12 @@ inline float metresPerUnit(const DepthView& depth) {
   return depth.type == DepthView::Type::kUint16 ? depth.metres_per_unit : 1.0F;
 }
 
+/// @return [m] the reading of pixel (u, v), with whatever stands for "no reading" in it. For single
+/// pixels and pictures; loops over whole images in the core are vectorised.
+inline float metresAt(const DepthView& depth, int u, int v) {
+  return depth.type == DepthView::Type::kUint16
+             ? depth.metres_per_unit * static_cast<float>(depth.row<std::uint16_t>(v)[u])
+             : depth.row<float>(v)[u];
+}
+
 }  // namespace dominant_plane_detection

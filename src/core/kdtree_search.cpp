@@ -10,11 +10,6 @@ namespace {
 /// [#] subsampled pixels to either side of r1 from which r2 and r3 are drawn.
 constexpr int kSeedWindow = 8;
 
-float reading(const DepthView& depth, int u, int v) {
-  return depth.type == DepthView::Type::kUint16 ? static_cast<float>(depth.row<std::uint16_t>(v)[u])
-                                                : depth.row<float>(v)[u];
-}
-
 }  // namespace
 
 void KdtreeSearch::collectPoints(const ImageInput& input, int subsampling) {
@@ -26,7 +21,7 @@ void KdtreeSearch::collectPoints(const ImageInput& input, int subsampling) {
   for (std::size_t pixel = 0; pixel < point_of_.size(); ++pixel) {
     const int u = static_cast<int>(pixel) % columns_ * subsampling;
     const int v = static_cast<int>(pixel) / columns_ * subsampling;
-    const float z = reading(input.depth, u, v) * input.range.metres_per_unit;
+    const float z = metresAt(input.depth, u, v);
     const Eigen::Vector3f ray = input.rays.ray(u, v);
     if (!(z >= input.range.min && z <= input.range.max) || std::isnan(ray.x())) continue;
     point_of_[pixel] = static_cast<std::ptrdiff_t>(points_.size());

@@ -31,10 +31,7 @@ void expectTilesOfPoints(const DepthView& depth, const CameraModel& camera, floa
     std::vector<Eigen::Vector3d> points;
     for (int v = top; v < std::min(top + kTileSize, depth.height); ++v) {
       for (int u = left; u < std::min(left + kTileSize, depth.width); ++u) {
-        const float z =
-            metresPerUnit(depth) * (depth.type == DepthView::Type::kUint16
-                                        ? static_cast<float>(depth.row<std::uint16_t>(v)[u])
-                                        : depth.row<float>(v)[u]);
+        const float z = metresAt(depth, u, v);
         if (z >= min && z <= max && !std::isnan(rays.ray(u, v).x())) {
           points.emplace_back(static_cast<double>(z) * rays.ray(u, v).cast<double>());
         }

@@ -37,8 +37,7 @@ Score score(const Detection& detection, const ReferenceSet& set, const Reference
   Overlap decided, plain;
   for (int v = 0; v < truth.depth.rows; ++v) {
     for (int u = 0; u < truth.depth.cols; ++u) {
-      const double z = static_cast<double>(static_cast<float>(truth.depth.at<std::uint16_t>(v, u)) *
-                                           set.metres_per_unit);
+      const double z = static_cast<double>(metresAt(set.view(truth), u, v));
       if (z < set.range_min || z > set.range_max) continue;
       const bool found = detection.label(u, v) == Label::kGround;
       const bool ground = truth.ground.at<std::uint8_t>(v, u) == 255;

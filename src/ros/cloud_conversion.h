@@ -1,0 +1,40 @@
+#pragma once
+
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dominant_plane_detection/camera_model.h"
+#include "dominant_plane_detection/depth_image.h"
+#include "dominant_plane_detection/detection.h"
+
+namespace dominant_plane_detection {
+
+/// Turns organised clouds back into the depth image and the pinhole that they came from.
+class CloudReader {
+ public:
+  struct Image {
+    DepthView depth;  ///< of the reader's memory, valid until the next call
+    CameraModel camera;
+  };
+
+  /// @param cloud [m] in an optical frame; NaN where there is no point.
+  /// @param error one sentence with what was expected and what came, if there is no image.
+  /// @return nothing for a cloud that is not organised, has too few points to tell the camera, or
+  /// does not come from a pinhole (points more than half a pixel off).
+  std::optional<Image> read(const pcl::PointCloud<pcl::PointXYZ>& cloud, std::string& error);
+
+ private:
+  std::vector<float> depth_;
+};
+
+/// @return the points of the pixels with a label, in PCL's layout of PointXYZ, unorganised and
+/// dense. The header is left to the caller.
+sensor_msgs::PointCloud2Ptr labelledPoints(const DepthView& depth, const RayTable& rays,
+                                           const Detection& detection, Label label);
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <dominant_plane_detection/DominantPlane.h>
+#include <pcl_msgs/ModelCoefficients.h>
+#include <sensor_msgs/Image.h>
+
+#include "dominant_plane_detection/detection.h"
+
+namespace dominant_plane_detection {
+
+/// @param processing_time [s]
+DominantPlanePtr planeMessage(const std_msgs::Header& header, const Detection& detection,
+                              double processing_time);
+
+/// @return [a b c d] with a x + b y + c z + d = 0, as PCL has it.
+/// @pre detection.found()
+pcl_msgs::ModelCoefficientsPtr coefficientsMessage(const std_msgs::Header& header,
+                                                   const Detection& detection);
+
+/// @return mono8, 255 where the label is ground, 0 elsewhere.
+sensor_msgs::ImagePtr maskMessage(const std_msgs::Header& header, const Detection& detection);
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <image_transport/image_transport.h>
+#include <ros/node_handle.h>
+
+#include <functional>
+
+#include "dominant_plane_detection/camera_model.h"
+#include "dominant_plane_detection/detection.h"
+#include "ros/detection_inputs.h"
+
+namespace dominant_plane_detection {
+
+/// The topics a detection is published on. Each message is made only while somebody listens to it,
+/// carries the depth image's header, and is not touched once it is published, so that subscribers
+/// in the same process may keep it.
+class DetectionOutputs {
+ public:
+  /// @param node outputs are private topics of it.
+  /// @param listeners_changed called whenever somebody begins or ends to listen to any of them.
+  void advertise(ros::NodeHandle& node, const std::function<void()>& listeners_changed);
+
+  bool anybodyListens() const;
+
+  /// @param processing_time [s] of the detection alone.
+  /// @param inputs asked for the picture under the overlay.
+  void publish(const DetectionInputs::Frame& frame, const Detection& detection,
+               double processing_time, const DetectionInputs& inputs);
+
+ private:
+  void publishClouds(const DetectionInputs::Frame& frame, const Detection& detection);
+  void publishOverlay(const DetectionInputs::Frame& frame, const Detection& detection,
+                      const DetectionInputs& inputs);
+
+  ros::Publisher plane_;
+  ros::Publisher coefficients_;
+  ros::Publisher obstacles_;
+  ros::Publisher ground_;
+  image_transport::Publisher mask_;
+  image_transport::Publisher overlay_;
+  RayTable rays_;
+};
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,73 @@
+#include "result_writer.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iomanip>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "ros/overlay.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+void writePng(const std::string& folder, const std::string& name, const cv::Mat& image) {
+  const std::string file = folder + "/" + name + ".png";
+  if (!cv::imwrite(file, image)) throw std::runtime_error(file + ": could not be written");
+}
+
+cv::Mat groundMask(const Detection& detection) {
+  // OpenCV takes no const data; nothing writes to it.
+  const cv::Mat labels(detection.height, detection.width, CV_8UC1,
+                       const_cast<std::uint8_t*>(detection.labels.data()));
+  return labels == static_cast<std::uint8_t>(Label::kGround);
+}
+
+}  // namespace
+
+ResultWriter::ResultWriter(const std::string& folder) : folder_(folder) {
+  std::error_code error;
+  for (const char* name : {"/masks", "/overlays"}) {
+    std::filesystem::create_directories(folder + name, error);
+    if (error) throw std::runtime_error(folder + name + ": " + error.message());
+  }
+  planes_.open(folder + "/planes.csv");
+  if (!planes_) throw std::runtime_error(folder + "/planes.csv: could not be written");
+  planes_ << "frame,state,normal_x,normal_y,normal_z,distance,mse,inliers,ms\n";
+}
+
+void ResultWriter::write(const Frame& frame, const Detection& detection, double ms) {
+  planes_ << frame.name << ',' << stateName(detection.state) << ',';
+  planes_ << std::setprecision(std::numeric_limits<float>::max_digits10);
+  if (detection.found()) {
+    planes_ << detection.normal.x() << ',' << detection.normal.y() << ',' << detection.normal.z()
+            << ',' << detection.distance << ',' << detection.mean_square_error;
+  } else {
+    planes_ << ",,,,";
+  }
+  planes_ << ',' << detection.inliers << ',' << std::setprecision(4) << ms << '\n';
+  if (!planes_.flush()) throw std::runtime_error(folder_ + "/planes.csv: could not be written");
+  writePng(folder_ + "/masks", frame.name, groundMask(detection));
+  cv::Mat picture = greyPicture(frame.depth);
+  paintOverlay(detection, picture);
+  writePng(folder_ + "/overlays", frame.name, picture);
+  ++states_[stateName(detection.state)];
+  ms_.push_back(ms);
+}
+
+std::string ResultWriter::summary() const {
+  std::ostringstream text;
+  text << ms_.size() << " images";
+  for (const auto& [state, count] : states_) text << ", " << count << ' ' << state;
+  if (!ms_.empty()) {
+    std::vector<double> sorted = ms_;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    text << std::setprecision(3) << ", median " << *middle << " ms";
+  }
+  return text.str();
+}
+
+}  // namespace dominant_plane_detection
