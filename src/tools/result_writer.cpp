@@ -1,22 +1,16 @@
 #include "result_writer.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iomanip>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <stdexcept>
 
+#include "png_files.h"
 #include "ros/overlay.h"
 
 namespace dominant_plane_detection {
 namespace {
-
-void writePng(const std::string& folder, const std::string& name, const cv::Mat& image) {
-  const std::string file = folder + "/" + name + ".png";
-  if (!cv::imwrite(file, image)) throw std::runtime_error(file + ": could not be written");
-}
 
 cv::Mat groundMask(const Detection& detection) {
   // OpenCV takes no const data; nothing writes to it.
@@ -28,11 +22,7 @@ cv::Mat groundMask(const Detection& detection) {
 }  // namespace
 
 ResultWriter::ResultWriter(const std::string& folder) : folder_(folder) {
-  std::error_code error;
-  for (const char* name : {"/masks", "/overlays"}) {
-    std::filesystem::create_directories(folder + name, error);
-    if (error) throw std::runtime_error(folder + name + ": " + error.message());
-  }
+  for (const char* name : {"/masks", "/overlays"}) makeFolder(folder + name);
   planes_.open(folder + "/planes.csv");
   if (!planes_) throw std::runtime_error(folder + "/planes.csv: could not be written");
   planes_ << "frame,state,normal_x,normal_y,normal_z,distance,mse,inliers,ms\n";

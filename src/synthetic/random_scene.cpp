@@ -1,0 +1,109 @@
+#include "synthetic/random_scene.h"
+
+#include <algorithm>
+#include <random>
+
+#include "dominant_plane_detection/detection.h"
+#include "synthetic/renderer.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180.0;
+constexpr double kMinFloor = 0.08;  // [-] share of the image
+
+class Generator {
+ public:
+  explicit Generator(std::uint32_t seed) : generator_(seed) {}
+  double between(double low, double high) {
+    return low + (high - low) * std::uniform_real_distribution<double>()(generator_);
+  }
+
+ private:
+  std::mt19937 generator_;
+};
+
+void place(Scene& scene, TriangleMesh mesh, const Eigen::Vector3d& position, double yaw,
+           const Eigen::Vector3d& colour) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = position;
+  pose.rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
+  mesh.transform(pose);
+  SceneObject object;
+  object.mesh = std::move(mesh);
+  object.colour = colour;
+  scene.objects.push_back(std::move(object));
+}
+
+void addRoom(Scene& scene, Generator& random) {
+  SceneObject floor;
+  floor.mesh = rectangleMesh(30.0, 30.0);
+  floor.ground = true;
+  floor.tiles = 0.4;
+  scene.objects.push_back(floor);
+  const Eigen::Vector3d paint(0.8, 0.78, 0.7);
+  const double turn = random.between(-0.4, 0.4);  // the room is not in line with the view
+  for (const double side : {0.0, 0.5 * kPi, -0.5 * kPi}) {
+    const double away = random.between(2.5, 6.0), direction = turn + side;
+    place(scene, boxMesh({0.1, 16.0, 2.5}),
+          {away * std::cos(direction), away * std::sin(direction), 0.0}, direction, paint);
+  }
+}
+
+void addThings(Scene& scene, Generator& random) {
+  const int count = static_cast<int>(random.between(2.0, 9.0));
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d colour(random.between(0.2, 0.9), random.between(0.2, 0.9),
+                                 random.between(0.2, 0.9));
+    const Eigen::Vector3d size(random.between(0.05, 0.8), random.between(0.05, 0.8),
+                               random.between(0.05, 0.8));
+    const double x = random.between(0.7, 3.5);
+    const Eigen::Vector3d position(x, random.between(-0.6, 0.6) * x, 0.0);
+    const double yaw = random.between(-kPi, kPi);
+    const bool round = random.between(0.0, 1.0) < 0.4;
+    place(scene, round ? cylinderMesh(0.5 * size.x(), size.z()) : boxMesh(size), position, yaw,
+          colour);
+  }
+}
+
+Scene draw(std::uint32_t seed, Generator& random) {
+  Scene scene;
+  scene.camera = kinectCamera();
+  KeyPose camera;
+  camera.position = {0.0, 0.0, random.between(0.3, 1.5)};
+  camera.pitch = random.between(10.0, 50.0) * kDegree;
+  camera.roll = random.between(-15.0, 15.0) * kDegree;
+  scene.path.keys.push_back(camera);
+  addRoom(scene, random);
+  addThings(scene, random);
+  if (seed % 3 == 0) {
+    // Across the view, about where the optical axis meets the floor.
+    const double x = std::clamp(camera.position.z() / std::tan(camera.pitch), 1.0, 3.0);
+    place(scene, boxMesh({0.1, 8.0, random.between(0.08, 0.15)}), {x, 0.0, 0.0},
+          random.between(-0.2, 0.2), {0.5, 0.3, 0.2});
+  }
+  return scene;
+}
+
+bool showsEnoughFloor(const Scene& scene) {
+  const Rendering rendering = Renderer(scene).render(scene.path.keys.front().pose(), false);
+  std::size_t floor = 0;
+  for (std::size_t i = 0; i < rendering.depth.size(); ++i) {
+    floor += rendering.labels[i] == static_cast<std::uint8_t>(Label::kGround) &&
+             rendering.depth[i] >= 0.5F && rendering.depth[i] <= 4.0F;
+  }
+  return static_cast<double>(floor) >= kMinFloor * static_cast<double>(rendering.depth.size());
+}
+
+}  // namespace
+
+Scene randomScene(std::uint32_t seed) {
+  Generator random(seed);
+  while (true) {
+    Scene scene = draw(seed, random);
+    if (showsEnoughFloor(scene)) return scene;
+  }
+}
+
+}  // namespace dominant_plane_detection
