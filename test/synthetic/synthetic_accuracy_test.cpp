@@ -1,0 +1,52 @@
+// The detector against scenes whose truth is exact.
+
+#include <gtest/gtest.h>
+
+#include "dominant_plane_detection/dominant_plane_detector.h"
+#include "support/scoring.h"
+#include "synthetic_set.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+
+class RandomScenes : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { set_ = new ReferenceSet(loadRandomScenes(60)); }
+  static void TearDownTestSuite() { delete set_; }
+  static ReferenceSet* set_;
+};
+ReferenceSet* RandomScenes::set_ = nullptr;
+
+TEST_F(RandomScenes, GridFindsTheTruth) {
+  DominantPlaneDetector detector;
+  std::vector<Score> scores;
+  for (const ReferenceImage& image : set_->images) {
+    scores.push_back(score(detector.detect(set_->view(image), set_->camera), *set_, image));
+    EXPECT_FALSE(scores.back().failed()) << "scene " << image.name;
+  }
+  const Summary summary = summarize(scores);
+  RecordProperty("iou_median", std::to_string(summary.iou_median));
+  EXPECT_GE(summary.iou_median, 0.985);
+  EXPECT_GE(summary.iou_p10, 0.95);
+  EXPECT_LE(summary.angle_median, 0.05 * kDegree);
+  EXPECT_LE(summary.height_median, 0.0006);
+}
+
+TEST_F(RandomScenes, KdtreeAgreesWithGrid) {
+  Parameters published;
+  published.algorithm = Algorithm::kKdtree;
+  DominantPlaneDetector grid, kdtree(published);
+  std::vector<double> overlaps;
+  // Every third scene: the point by point growth takes its time.
+  for (std::size_t i = 0; i < set_->images.size(); i += 3) {
+    const DepthView depth = set_->view(set_->images[i]);
+    overlaps.push_back(groundOverlap(grid.detect(depth, set_->camera).labels,
+                                     kdtree.detect(depth, set_->camera).labels));
+  }
+  EXPECT_GE(quantile(overlaps, 0.5), 0.97);
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection
