@@ -1,0 +1,294 @@
+#include <gtest/gtest.h>
+#include <pcl_conversions/pcl_conversions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dominant_plane_detection/dominant_plane_detector.h"
+#include "ros/camera_conversion.h"
+#include "ros/cloud_conversion.h"
+#include "ros/depth_conversion.h"
+#include "ros/detection_messages.h"
+#include "ros/overlay.h"
+#include "support/synthetic_depth.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+sensor_msgs::Image depthMessage() {
+  sensor_msgs::Image image;
+  image.encoding = "16UC1";
+  image.width = 4;
+  image.height = 3;
+  image.step = 8;
+  image.data.resize(24);
+  for (std::uint8_t i = 0; i < 12; ++i) image.data[2 * i] = i;  // little-endian 0 to 11
+  return image;
+}
+
+TEST(DepthReader, SeesTheMessageItself) {
+  const sensor_msgs::Image image = depthMessage();
+  DepthReader reader;
+  std::string error;
+  const auto view = reader.read(image, error);
+  ASSERT_TRUE(view) << error;
+  EXPECT_EQ(view->data, image.data.data());
+  EXPECT_NEAR(static_cast<double>(metresAt(*view, 3, 2)), 0.011, 1e-9);
+}
+
+TEST(DepthReader, HonoursStepByteOrderAndEncoding) {
+  DepthReader reader;
+  std::string error;
+  sensor_msgs::Image padded = depthMessage();
+  padded.step = 10;
+  padded.data.assign(28, 0);  // the last row is not padded
+  padded.data[2 * 10 + 6] = 200;
+  EXPECT_NEAR(static_cast<double>(metresAt(*reader.read(padded, error), 3, 2)), 0.2, 1e-7);
+
+  sensor_msgs::Image big = depthMessage();
+  big.is_bigendian = 1;
+  for (std::size_t i = 0; i < big.data.size(); i += 2) std::swap(big.data[i], big.data[i + 1]);
+  EXPECT_NEAR(static_cast<double>(metresAt(*reader.read(big, error), 3, 2)), 0.011, 1e-9);
+
+  sensor_msgs::Image mono = depthMessage();
+  mono.encoding = "mono16";
+  EXPECT_TRUE(reader.read(mono, error));
+
+  sensor_msgs::Image metres = depthMessage();
+  metres.encoding = "32FC1";
+  metres.step = 16;
+  const std::vector<float> values(12, 1.25F);
+  metres.data.resize(48);
+  std::copy_n(reinterpret_cast<const std::uint8_t*>(values.data()), 48, metres.data.begin());
+  EXPECT_EQ(metresAt(*reader.read(metres, error), 2, 1), 1.25F);
+}
+
+TEST(DepthReader, SaysWhatIsWrongWithAnImage) {
+  const auto errorOf = [](auto change) {
+    sensor_msgs::Image image = depthMessage();
+    change(image);
+    DepthReader reader;
+    std::string error;
+    EXPECT_FALSE(reader.read(image, error));
+    return error;
+  };
+  using Image = sensor_msgs::Image;
+  EXPECT_NE(errorOf([](Image& i) { i.encoding = "rgb8"; }).find("'rgb8'"), std::string::npos);
+  EXPECT_NE(errorOf([](Image& i) { i.width = 0; }).find("0 x 3"), std::string::npos);
+  EXPECT_NE(errorOf([](Image& i) { i.width = 1U << 31U; }).find("32768"), std::string::npos);
+  EXPECT_NE(errorOf([](Image& i) { i.step = 7; }).find("step"), std::string::npos);
+  EXPECT_NE(errorOf([](Image& i) { i.step = 9; }).find("multiple of 2"), std::string::npos);
+  EXPECT_NE(errorOf([](Image& i) { i.data.resize(23); }).find("24 bytes"), std::string::npos);
+}
+
+sensor_msgs::CameraInfo cameraInfo() {
+  sensor_msgs::CameraInfo info;
+  info.width = 640;
+  info.height = 480;
+  info.K = {500, 0, 320, 0, 510, 240, 0, 0, 1};
+  info.P = {400, 0, 310, 0, 0, 410, 230, 0, 0, 0, 1, 0};
+  info.distortion_model = "plumb_bob";
+  info.D = {0.1, -0.2, 0.003, -0.004, 0.05};
+  return info;
+}
+
+TEST(CameraConversion, RawImagesHaveKAndDRectifiedOnesP) {
+  std::string error;
+  const auto raw = cameraModel(cameraInfo(), false, error);
+  ASSERT_TRUE(raw) << error;
+  EXPECT_EQ(raw->fx, 500.0);
+  EXPECT_EQ(raw->cy, 240.0);
+  EXPECT_EQ(raw->distortion, DistortionModel::kPlumbBob);
+  EXPECT_EQ(raw->coefficients[4], 0.05);
+  const auto rectified = cameraModel(cameraInfo(), true, error);
+  ASSERT_TRUE(rectified) << error;
+  EXPECT_EQ(rectified->fx, 400.0);
+  EXPECT_EQ(rectified->cy, 230.0);
+  EXPECT_EQ(rectified->distortion, DistortionModel::kNone);
+  sensor_msgs::CameraInfo plain = cameraInfo();
+  plain.D.clear();
+  plain.distortion_model.clear();
+  EXPECT_EQ(cameraModel(plain, false, error)->distortion, DistortionModel::kNone);
+  sensor_msgs::CameraInfo rational = cameraInfo();
+  rational.distortion_model = "rational_polynomial";
+  rational.D.assign(8, 0.01);
+  EXPECT_EQ(cameraModel(rational, false, error)->distortion, DistortionModel::kRationalPolynomial);
+}
+
+TEST(CameraConversion, RegionOfInterestAndBinning) {
+  sensor_msgs::CameraInfo info = cameraInfo();
+  info.roi.x_offset = 100;
+  info.roi.y_offset = 60;
+  info.roi.width = 400;
+  info.roi.height = 300;
+  info.binning_x = info.binning_y = 2;
+  std::string error;
+  const auto camera = cameraModel(info, false, error);
+  ASSERT_TRUE(camera) << error;
+  EXPECT_EQ(camera->width, 200);
+  EXPECT_EQ(camera->height, 150);
+  EXPECT_EQ(camera->fx, 250.0);
+  EXPECT_EQ(camera->cx, 110.0);
+  EXPECT_EQ(camera->cy, 90.0);
+}
+
+TEST(CameraConversion, SaysWhatIsWrongWithACameraInfo) {
+  std::string error;
+  EXPECT_FALSE(cameraModel(sensor_msgs::CameraInfo(), false, error));
+  EXPECT_NE(error.find("calibrated"), std::string::npos) << error;
+  sensor_msgs::CameraInfo info = cameraInfo();
+  info.distortion_model = "fisheye";
+  EXPECT_FALSE(cameraModel(info, false, error));
+  EXPECT_NE(error.find("'fisheye'"), std::string::npos) << error;
+  info = cameraInfo();
+  info.D.resize(4);
+  EXPECT_FALSE(cameraModel(info, false, error));
+  EXPECT_NE(error.find("got 4"), std::string::npos) << error;
+  info = cameraInfo();
+  info.K[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(cameraModel(info, false, error));
+  info = cameraInfo();
+  info.roi.x_offset = 5000;  // beyond the image
+  EXPECT_FALSE(cameraModel(info, false, error));
+}
+
+pcl::PointCloud<pcl::PointXYZ> organisedCloud(const CameraModel& camera,
+                                              const OwnedDepth<float>& depth) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  pcl::PointCloud<pcl::PointXYZ> cloud(static_cast<std::uint32_t>(camera.width),
+                                       static_cast<std::uint32_t>(camera.height));
+  RayTable rays;
+  rays.build(camera);
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const float z = metresAt(depth.view(), u, v);
+      const Eigen::Vector3f point = (z > 0.0F ? z : kNaN) * rays.ray(u, v);
+      cloud.at(u, v) = {point.x(), point.y(), point.z()};
+    }
+  }
+  return cloud;
+}
+
+TEST(CloudReader, FindsTheCameraOfAnOrganisedCloud) {
+  CameraModel camera = testCamera(320, 240);
+  camera.fy = 270.0;
+  camera.cx = 150.0;
+  const OwnedDepth<float> depth = planeDepth(camera, upOf(0.2), 0.8);  // NaN over the horizon
+  CloudReader reader;
+  std::string error;
+  const auto image = reader.read(organisedCloud(camera, depth), error);
+  ASSERT_TRUE(image) << error;
+  EXPECT_NEAR(image->camera.fx, camera.fx, 1e-3);
+  EXPECT_NEAR(image->camera.fy, camera.fy, 1e-3);
+  EXPECT_NEAR(image->camera.cx, camera.cx, 1e-3);
+  EXPECT_NEAR(image->camera.cy, camera.cy, 1e-3);
+  EXPECT_EQ(metresAt(image->depth, 100, 200), metresAt(depth.view(), 100, 200));
+}
+
+TEST(CloudReader, SaysWhatIsWrongWithACloud) {
+  const CameraModel camera = testCamera(64, 48);
+  const auto cloud = organisedCloud(camera, planeDepth(camera, upOf(0.6), 0.8));
+  CloudReader reader;
+  std::string error;
+  auto row = cloud;
+  row.width = row.width * row.height;
+  row.height = 1;
+  EXPECT_FALSE(reader.read(row, error));
+  EXPECT_NE(error.find("organised"), std::string::npos) << error;
+  auto empty = cloud;
+  for (auto& point : empty) point.x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(reader.read(empty, error));
+  EXPECT_NE(error.find("got 0"), std::string::npos) << error;
+  auto shuffled = cloud;
+  std::reverse(shuffled.begin(), shuffled.begin() + 1000);
+  EXPECT_FALSE(reader.read(shuffled, error));
+  EXPECT_NE(error.find("pinhole"), std::string::npos) << error;
+  EXPECT_FALSE(reader.read(pcl::PointCloud<pcl::PointXYZ>(), error));
+}
+
+class DetectionMessages : public testing::Test {
+ protected:
+  DetectionMessages() {
+    OwnedDepth<float> metres = planeDepth(camera_, upOf(0.6), 0.8);
+    for (int v = 200; v < 260; ++v) {
+      for (int u = 300; u < 360; ++u) metres.at(u, v) *= 0.7F;  // obstacle
+      for (int u = 100; u < 160; ++u) metres.at(u, v) *= 1.3F;  // hole
+    }
+    depth_ = inMillimetres(metres);
+    rays_.build(camera_);
+    header_.stamp = ros::Time(12, 34);
+    header_.frame_id = "optical";
+  }
+  const CameraModel camera_ = testCamera();
+  OwnedDepth<std::uint16_t> depth_{1, 1};
+  RayTable rays_;
+  std_msgs::Header header_;
+  DominantPlaneDetector detector_;
+};
+
+TEST_F(DetectionMessages, PlaneCoefficientsAndMask) {
+  const Detection& detection = detector_.detect(depth_.view(), camera_);
+  ASSERT_TRUE(detection.found());
+  const auto plane = planeMessage(header_, detection, 0.001);
+  EXPECT_EQ(plane->header.stamp, header_.stamp);
+  EXPECT_EQ(plane->header.frame_id, "optical");
+  EXPECT_EQ(plane->state, DominantPlane::FOUND);
+  EXPECT_NEAR(plane->normal.y, -std::cos(0.6), 1e-3);
+  EXPECT_NEAR(plane->distance, 0.8, 1e-3);
+  EXPECT_EQ(plane->covariance[0], -1.0);
+  EXPECT_EQ(plane->up_source, DominantPlane::UP_FIXED);
+  const auto coefficients = coefficientsMessage(header_, detection);
+  ASSERT_EQ(coefficients->values.size(), 4U);
+  EXPECT_NEAR(static_cast<double>(coefficients->values[3]), plane->distance, 1e-6);
+  const auto mask = maskMessage(header_, detection);
+  EXPECT_EQ(mask->encoding, "mono8");
+  EXPECT_EQ(std::count(mask->data.begin(), mask->data.end(), 255),
+            static_cast<std::ptrdiff_t>(plane->inliers));
+  EXPECT_EQ(mask->data[220 * 640 + 330], 0);
+  EXPECT_EQ(mask->data[400 * 640 + 330], 255);
+}
+
+TEST_F(DetectionMessages, NoPlaneIsNaNWithAReason) {
+  const OwnedDepth<std::uint16_t> empty(640, 480);
+  const auto plane = planeMessage(header_, detector_.detect(empty.view(), camera_), 0.001);
+  EXPECT_EQ(plane->state, DominantPlane::NO_DEPTH);
+  EXPECT_FALSE(plane->reason.empty());
+  EXPECT_TRUE(std::isnan(plane->normal.x) && std::isnan(plane->distance) &&
+              std::isnan(plane->mean_square_error) && std::isnan(plane->inlier_share));
+  EXPECT_EQ(plane->inliers, 0U);
+}
+
+TEST_F(DetectionMessages, CloudsHoldTheLabelledPointsInPclsLayout) {
+  const Detection& detection = detector_.detect(depth_.view(), camera_);
+  const auto message = labelledPoints(depth_.view(), rays_, detection, Label::kObstacle);
+  EXPECT_EQ(message->point_step, 16U);
+  ASSERT_EQ(message->fields.size(), 3U);
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(message->fields[i].offset, 4 * i);
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  pcl::fromROSMsg(*message, cloud);
+  ASSERT_NEAR(static_cast<double>(cloud.size()), 3600.0, 10.0);
+  for (const auto& point : cloud) {
+    const double height =
+        detection.normal.dot(point.getVector3fMap().cast<double>()) + detection.distance;
+    EXPECT_NEAR(height, 0.3 * 0.8, 0.005);  // seen at 0.7 of the floor's distance
+  }
+}
+
+TEST_F(DetectionMessages, OverlayPaintsByLabel) {
+  const Detection& detection = detector_.detect(depth_.view(), camera_);
+  cv::Mat picture(480, 640, CV_8UC3, cv::Scalar(100, 100, 100));
+  paintOverlay(detection, picture);
+  EXPECT_EQ(picture.at<cv::Vec3b>(400, 330), cv::Vec3b(0, 0, 0));
+  const cv::Vec3b obstacle = picture.at<cv::Vec3b>(220, 330),
+                  hole = picture.at<cv::Vec3b>(220, 130);
+  EXPECT_GT(obstacle[2], 140);  // red
+  EXPECT_LT(obstacle[1], 100);
+  EXPECT_GT(hole[2], 140);  // yellow
+  EXPECT_GT(hole[1], 130);
+  const cv::Mat grey = greyPicture(depth_.view());
+  EXPECT_GT(grey.at<cv::Vec3b>(479, 320)[0], grey.at<cv::Vec3b>(300, 320)[0]);  // near is bright
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection
