@@ -1,0 +1,21 @@
+# Lint of the package and the format of the sources, as tests; skipped where the tool is not installed.
+find_program(CATKIN_LINT catkin_lint)
+find_program(CLANG_FORMAT clang-format)
+
+if(CATKIN_LINT)
+  # Left out: headers of the core are found in two ways on purpose (Highway includes a kernel again by
+  # its name); scripts for a checkout are not installed; libraries here are for this package alone.
+  add_test(NAME lint_catkin COMMAND ${CATKIN_LINT} -W1 --strict --offline
+    --ignore ambiguous_include_path --ignore uninstalled_script
+    --ignore external_interface_path --ignore external_directory
+    ${PROJECT_SOURCE_DIR})
+endif()
+
+if(CLANG_FORMAT)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS
+    ${PROJECT_SOURCE_DIR}/bench/*.cpp
+    ${PROJECT_SOURCE_DIR}/include/*.h
+    ${PROJECT_SOURCE_DIR}/src/*.cpp ${PROJECT_SOURCE_DIR}/src/*.h
+    ${PROJECT_SOURCE_DIR}/test/*.cpp ${PROJECT_SOURCE_DIR}/test/*.h)
+  add_test(NAME lint_format COMMAND ${CLANG_FORMAT} --dry-run --Werror ${sources})
+endif()
