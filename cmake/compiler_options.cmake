@@ -6,6 +6,8 @@ set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+# Installed programs find the libraries that were installed with them, wherever that was.
+set(CMAKE_INSTALL_RPATH "$ORIGIN:$ORIGIN/..")
 
 # Strict warnings for the project's own code; what it includes from elsewhere is SYSTEM.
 function(dpd_target_options target)
