@@ -1,0 +1,112 @@
+// The stages of the detector one by one, and the paper's own claims about its cost.
+
+#include <benchmark/benchmark.h>
+
+#include <Eigen/Eigenvalues>
+#include <random>
+
+#include "dominant_plane_detection/dominant_plane_detector.h"
+#include "dominant_plane_detection/ground_segmentation.h"
+#include "dominant_plane_detection/tile_moments.h"
+#include "plane_search.h"
+#include "reference_sets.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+/// The first random scene.
+const ReferenceSet& scene() {
+  static const ReferenceSet set = loadRandomScenes(1);
+  return set;
+}
+DepthView depth() { return scene().view(scene().images.front()); }
+RayTable rays() {
+  RayTable table;
+  table.build(scene().camera);
+  return table;
+}
+PlaneSelection selection() {
+  return PlaneSelection({-Eigen::Vector3d::UnitY(), 1.05, 0.0, 10.0, 1000});
+}
+
+void tileMoments(benchmark::State& state) {
+  const RayTable table = rays();
+  TileMoments tiles;
+  for (auto _ : state) computeTileMoments(depth(), table, 0.5F, 4.0F, tiles);
+}
+BENCHMARK(tileMoments)->Unit(benchmark::kMicrosecond);
+
+void gridSearch(benchmark::State& state) {
+  TileMoments tiles;
+  computeTileMoments(depth(), rays(), 0.5F, 4.0F, tiles);
+  GridSearch search;
+  for (auto _ : state) {
+    PlaneSelection result = selection();
+    benchmark::DoNotOptimize(search.run(tiles, Parameters(), result));
+  }
+}
+BENCHMARK(gridSearch)->Unit(benchmark::kMicrosecond);
+
+void labels(benchmark::State& state) {
+  const RayTable table = rays();
+  const ReferenceImage& image = scene().images.front();
+  const Parameters p;
+  GroundSegmentation segmentation;
+  std::vector<std::uint8_t> labels;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(segmentation.label(depth(), table, image.up, image.height,
+                                                {0.5F, 4.0F, p.noise, p.ground_band, 400}, labels));
+  }
+}
+BENCHMARK(labels)->Unit(benchmark::kMicrosecond);
+
+void wholeDetector(benchmark::State& state, Algorithm algorithm, int subsampling) {
+  Parameters parameters;
+  parameters.algorithm = algorithm;
+  parameters.subsampling = subsampling;
+  DominantPlaneDetector detector(parameters);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(detector.detect(depth(), scene().camera).distance);
+  }
+}
+BENCHMARK_CAPTURE(wholeDetector, grid, Algorithm::kGrid, 1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wholeDetector, kdtree_n1, Algorithm::kKdtree, 1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(wholeDetector, kdtree_n2, Algorithm::kKdtree, 2)->Unit(benchmark::kMillisecond);
+
+/// 2,000 points joining a plane one by one, with its mean square error known after each.
+std::vector<Eigen::Vector3d> joiningPoints() {
+  std::mt19937 generator(1);
+  std::normal_distribution<double> noise(0.0, 0.005);
+  std::uniform_real_distribution<double> spread(-1.0, 1.0);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 2000; ++i)
+    points.emplace_back(spread(generator), 1.0 + noise(generator), 2.0 + spread(generator));
+  return points;
+}
+
+void equation10(benchmark::State& state) {
+  const auto points = joiningPoints();
+  for (auto _ : state) {
+    PlaneMoments moments;
+    for (const auto& r : points) {
+      moments.add(r);
+      benchmark::DoNotOptimize(moments.fit());
+    }
+  }
+}
+BENCHMARK(equation10)->Unit(benchmark::kMillisecond);
+
+void recomputing(benchmark::State& state) {
+  const auto points = joiningPoints();
+  for (auto _ : state) {
+    for (std::size_t k = 1; k <= points.size(); ++k) {
+      PlaneMoments moments;
+      for (std::size_t i = 0; i < k; ++i) moments.add(points[i]);  // Eq. 5, 6 over all again
+      benchmark::DoNotOptimize(moments.fit());
+    }
+  }
+}
+BENCHMARK(recomputing)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace dominant_plane_detection
