@@ -21,7 +21,7 @@ namespace dominant_plane_detection {
 class GridRegionGrowing {
  public:
   struct Region {
-    PlaneFit fit;
+    HessePlane plane;
     std::size_t points = 0;  ///< [px]
   };
 
@@ -35,16 +35,17 @@ class GridRegionGrowing {
   /// @return [px] points in the tiles that are available.
   std::size_t availablePoints() const { return available_points_; }
 
-  /// Grows a region from a tile and those about it, over tiles of earlier regions as well, and
-  /// claims its tiles.
+  /// Grows a region from a tile and those about it until there is nothing left to join, or until
+  /// its plane has settled: what more would join then is what `refine` takes.
   /// @return nothing where the tiles about the seed are no plane; the seed is claimed then.
   std::optional<Region> grow(std::size_t seed);
 
   /// Refits a plane to all tiles on it, wherever they are in the image, and claims them: the pieces
   /// that obstacles cut off join, and what the growing picked up while its plane was poor leaves.
   /// Weighted by 1 / sigma(z)^2, so that far, noisy points do not lever the plane.
-  /// @return the region of the refitted plane; nothing if no tile lies on `plane`.
-  std::optional<Region> refine(const HessePlane& plane);
+  /// @param worthwhile [px] a plane with fewer points is not refined to the end.
+  /// @return the region of the refitted plane; nothing if too few tiles lie on it.
+  std::optional<Region> refine(const HessePlane& plane, std::size_t worthwhile = 0);
 
  private:
   /// Mean and variance of the heights of a tile's points over a plane.
@@ -62,6 +63,7 @@ class GridRegionGrowing {
   bool tryToJoin(std::size_t tile);
   void join(std::size_t tile);
   bool refit();
+  bool settled(const HessePlane& before) const;
 
   const TileMoments* tiles_ = nullptr;
   float min_count_ = 0.0F;
@@ -70,6 +72,11 @@ class GridRegionGrowing {
   std::vector<float> epsilon2_;  ///< [m^2]
   std::vector<float> gamma_;     ///< [m]
   std::vector<float> radius_;    ///< [m] half the extent of the tile's points
+  std::vector<float> weight_;    ///< [1/m^2] 1 / sigma^2
+  DepthThreshold gamma_of_z_;
+  double nearest_ = 0.0;   ///< [m] depth of the usable tiles
+  double farthest_ = 0.0;  ///< [m]
+  std::vector<std::uint8_t> on_plane_;
   std::vector<std::uint8_t> claimed_;
   std::size_t available_points_ = 0;
 

@@ -13,8 +13,8 @@ namespace dominant_plane_detection {
 /// noise of one by eight while a tile at 4 m is still only 6 cm wide.
 constexpr int kTileSize = 8;
 
-/// Moments of the points in each image tile, row-major, one flat array per number. Tiles at the
-/// right and lower border may be partly outside the image.
+/// Moments of the points in each image tile, row-major, one flat array per number, filled up with
+/// zeros to whole vectors. Tiles at the right and lower border may be partly outside the image.
 struct TileMoments {
   int columns = 0;                            ///< [#]
   int rows = 0;                               ///< [#]
@@ -22,7 +22,10 @@ struct TileMoments {
   std::vector<float> x, y, z;                 ///< [m] centre r_g
   std::vector<float> xx, xy, xz, yy, yz, zz;  ///< [m^2] scatter A / count
 
-  std::size_t size() const { return count.size(); }
+  /// @return [#] of tiles, without the padding of the arrays.
+  std::size_t size() const {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
   Eigen::Vector3d centre(std::size_t tile) const { return {x[tile], y[tile], z[tile]}; }
   /// @return [m^2] A, the sum over the tile's points (Eq. 5).
   Eigen::Matrix3d scatter(std::size_t tile) const {

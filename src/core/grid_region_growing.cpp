@@ -1,8 +1,12 @@
 #include "dominant_plane_detection/grid_region_growing.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "plane_refinement_kernel.h"
 #include "tile_neighbours.h"
 
 namespace dominant_plane_detection {
@@ -14,14 +18,32 @@ constexpr float kMinFill = 0.5F;
 constexpr double kSpread = 2.0;
 /// The plane is fitted again whenever the region has grown by this factor.
 constexpr double kRefitGrowth = 1.25;
-/// A tile farther off than this many times gamma is not worth a fit of its own.
+/// What is not worth a fit of its own: a tile farther off than this many times gamma, and one that
+/// would be a smaller share of the region than this, which cannot turn the plane towards itself.
 constexpr double kHopeless = 1.5;
+constexpr double kNoticeable = 0.02;
 /// Tiles that a region starts from, its seed among them: three times three, less a third.
 constexpr std::size_t kMinStart = 6;
-constexpr int kRefineSteps = 5;
-/// A plane that moves by less than this between two steps, far below any sensor's noise, is final.
-constexpr double kSettledNormal = 1e-4;    // [rad]
-constexpr double kSettledDistance = 1e-4;  // [m]
+/// A plane has settled when growing by kRefitGrowth moves it by less than this share of gamma.
+constexpr double kSettled = 0.1;
+/// Steps of the refinement; a plane that moves by less than the last two numbers, far below any
+/// sensor's noise, is final.
+constexpr int kRefineSteps = 6;
+constexpr double kFinalNormal = 1e-4;    // [rad]
+constexpr double kFinalDistance = 1e-4;  // [m]
+
+/// Smallest reciprocal condition of the normal equations that still tell a plane.
+constexpr double kMinCondition = 1e-7;
+
+/// @return the frame of a plane about its point nearest to `centre`.
+PlaneFrame frameOf(const HessePlane& plane, const Eigen::Vector3d& centre) {
+  const Eigen::Vector3d& n = plane.normal;
+  const Eigen::Vector3d a = n.unitOrthogonal();
+  PlaneFrame frame;
+  frame.origin = (centre - plane.signedDistance(centre) * n).cast<float>();
+  frame.axes << a.cast<float>(), n.cross(a).cast<float>(), n.cast<float>();
+  return frame;
+}
 
 }  // namespace
 
@@ -30,7 +52,13 @@ void GridRegionGrowing::start(const TileMoments& tiles, const GrowthThresholds& 
   noise_ = thresholds.noise;
   min_count_ = kMinFill * kTileSize * kTileSize;
   const std::size_t size = tiles.size();
-  for (auto* values : {&delta_, &epsilon2_, &gamma_, &radius_}) values->resize(size);
+  for (auto* values : {&delta_, &epsilon2_, &gamma_, &radius_, &weight_}) {
+    values->resize(tiles.count.size());
+  }
+  on_plane_.resize(tiles.count.size());
+  gamma_of_z_ = thresholds.gamma;
+  nearest_ = std::numeric_limits<double>::infinity();
+  farthest_ = 0.0;
   claimed_.assign(size, 0);
   joined_.assign(size, 0);
   growth_ = 0;
@@ -43,7 +71,12 @@ void GridRegionGrowing::start(const TileMoments& tiles, const GrowthThresholds& 
     gamma_[tile] = static_cast<float>(thresholds.gamma.at(z, noise_));
     // Points spread evenly over a length have a variance of a third of its half squared.
     radius_[tile] = std::sqrt(3.0F * (tiles.xx[tile] + tiles.yy[tile] + tiles.zz[tile]));
-    if (usable(tile)) available_points_ += static_cast<std::size_t>(tiles.count[tile]);
+    const double sigma = noise_.sigma(z);
+    weight_[tile] = static_cast<float>(1.0 / (sigma * sigma));
+    if (!usable(tile)) continue;
+    available_points_ += static_cast<std::size_t>(tiles.count[tile]);
+    nearest_ = std::min(nearest_, z);
+    farthest_ = std::max(farthest_, z);
   }
 }
 
@@ -94,6 +127,16 @@ bool GridRegionGrowing::refit() {
   return true;
 }
 
+/// Whether the plane is so close to an earlier one that tiles at any depth are judged alike.
+bool GridRegionGrowing::settled(const HessePlane& before) const {
+  const double turned = (fit_.plane.normal - before.normal).norm();
+  const double moved = std::abs(fit_.plane.distance - before.distance);
+  const auto small = [&](double z) {
+    return turned * z + moved < kSettled * gamma_of_z_.at(z, noise_);
+  };
+  return small(nearest_) && small(farthest_);
+}
+
 /// The region's first plane: a tile is too small to give one that holds far beyond it, the nine
 /// tiles about the seed are ten times better. Those that lie on something else are left out once.
 bool GridRegionGrowing::startRegion(std::size_t seed) {
@@ -132,6 +175,7 @@ bool GridRegionGrowing::tryToJoin(std::size_t tile) {
   const double sum_bound = fit_.mean_square_error * moments_.count() +
                            count * (height_now.variance + height_now.mean * height_now.mean);
   if (within(height_now, gamma) && sum_bound < sum_limit) return true;
+  if (count < kNoticeable * moments_.count()) return false;
   PlaneMoments with_tile = moments_;
   with_tile.add(count, tiles_->centre(tile), tiles_->scatter(tile));
   const std::optional<PlaneFit> fit = with_tile.fit();
@@ -149,39 +193,44 @@ std::optional<GridRegionGrowing::Region> GridRegionGrowing::grow(std::size_t see
       if (!usable(tile) || joined_[tile] == growth_) return;
       if (close(tile, from) && tryToJoin(tile)) join(tile);
     });
-    if (moments_.count() > kRefitGrowth * fitted_count_) refit();
+    if (moments_.count() > kRefitGrowth * fitted_count_) {
+      const HessePlane before = fit_.plane;
+      refit();
+      if (settled(before)) break;
+    }
   }
   refit();
   for (const std::size_t tile : region_) claim(tile);
-  return Region{fit_, static_cast<std::size_t>(moments_.count())};
+  return Region{fit_.plane, static_cast<std::size_t>(moments_.count())};
 }
 
-std::optional<GridRegionGrowing::Region> GridRegionGrowing::refine(const HessePlane& plane) {
-  std::optional<Region> region;
-  HessePlane current = plane;
+/// Gauss-Newton steps on the weighted sum of squared distances; the solution is that of the
+/// weighted fit by moments.
+std::optional<GridRegionGrowing::Region> GridRegionGrowing::refine(const HessePlane& plane,
+                                                                   std::size_t worthwhile) {
+  if (!(farthest_ > 0.0)) return std::nullopt;
+  const TileRule rule{min_count_, gamma_, weight_};
+  Region region{plane, 0};
+  const Eigen::Vector3d centre(0.0, 0.0, 0.5 * (nearest_ + farthest_));
   for (int step = 0; step < kRefineSteps; ++step) {
-    PlaneMoments moments;
-    region_.clear();
-    std::size_t points = 0;
-    for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
-      if (!usable(tile) || !within(height(tile, current), static_cast<double>(gamma_[tile]))) {
-        continue;
-      }
-      const double sigma = noise_.sigma(static_cast<double>(tiles_->z[tile]));
-      moments.add(static_cast<double>(tiles_->count[tile]), tiles_->centre(tile),
-                  tiles_->scatter(tile), 1.0 / (sigma * sigma));
-      points += static_cast<std::size_t>(tiles_->count[tile]);
-      region_.push_back(tile);
-    }
-    const std::optional<PlaneFit> fit = moments.fit();
-    if (!fit) return std::nullopt;
-    region = Region{*fit, points};
-    const bool settled = (fit->plane.normal - current.normal).norm() < kSettledNormal &&
-                         std::abs(fit->plane.distance - current.distance) < kSettledDistance;
-    current = fit->plane;
-    if (settled) break;
+    const PlaneFrame frame = frameOf(region.plane, centre);
+    const PlaneResiduals residuals = runPlaneRefinementKernel(*tiles_, rule, frame, on_plane_);
+    region.points = residuals.points;
+    const Eigen::LDLT<Eigen::Matrix3d> solver(residuals.normal_matrix);
+    // A single tile, or tiles in one line, do not determine a plane.
+    if (residuals.points == 0 || !(solver.rcond() > kMinCondition)) return std::nullopt;
+    const Eigen::Vector3d change = solver.solve(residuals.right);  // p, q, c
+    const Eigen::Matrix3d axes = frame.axes.cast<double>();
+    const Eigen::Vector3d normal =
+        (axes.col(2) - change[0] * axes.col(0) - change[1] * axes.col(1)).normalized();
+    region.plane =
+        HessePlane::through(frame.origin.cast<double>() + change[2] * axes.col(2), normal);
+    if (change.head<2>().norm() < kFinalNormal && std::abs(change[2]) < kFinalDistance) break;
+    if (region.points < worthwhile) break;
   }
-  for (const std::size_t tile : region_) claim(tile);
+  for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
+    if (on_plane_[tile]) claim(tile);
+  }
   return region;
 }
 

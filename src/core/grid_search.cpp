@@ -18,12 +18,9 @@ std::size_t GridSearch::run(const TileMoments& tiles, const Parameters& paramete
       ++tried;
       const auto region = growing_.grow(seed);
       if (!region) continue;
-      if (!selection.admissible(region->fit.plane)) {
-        selection.consider(region->fit.plane, region->points);
-        continue;
-      }
-      const auto refined = growing_.refine(region->fit.plane);
-      if (refined) selection.consider(refined->fit.plane, refined->points);
+      // What is far from being the largest even now will not become so.
+      const auto refined = growing_.refine(region->plane, selection.toBeat() / 2);
+      if (refined) selection.consider(refined->plane, refined->points);
     }
   };
   search(lower_half, tiles.size());

@@ -17,10 +17,6 @@ void PlaneSelection::consider(const HessePlane& plane, std::size_t points) {
   }
 }
 
-bool PlaneSelection::admissible(const HessePlane& plane) const {
-  return checkPose(plane) == State::kFound;
-}
-
 State PlaneSelection::checkPose(const HessePlane& plane) const {
   if (tilt(plane) > limits_.max_tilt) return State::kTooTilted;
   if (plane.distance < limits_.min_height || plane.distance > limits_.max_height) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -28,12 +29,11 @@ class PlaneSelection {
   /// @param points [px] that lie on the plane.
   void consider(const HessePlane& plane, std::size_t points);
 
-  /// @return whether the plane is within the limits, but for its size.
-  bool admissible(const HessePlane& plane) const;
-
   bool found() const { return best_.points > 0; }
   const HessePlane& plane() const { return best_.plane; }
   std::size_t points() const { return best_.points; }  ///< [px] 0 when nothing was found
+  /// @return [px] what a plane needs at least to be selected.
+  std::size_t toBeat() const { return std::max(best_.points, limits_.min_points); }
 
   /// @return why nothing was found; kNoRegion when no plane was ever considered.
   State refusal() const { return refusal_; }

@@ -1,5 +1,7 @@
 #include "dominant_plane_detection/tile_moments.h"
 
+#include <algorithm>
+
 #include "tile_moments_kernel.h"
 
 namespace dominant_plane_detection {
@@ -7,8 +9,11 @@ namespace dominant_plane_detection {
 void TileMoments::resize(int image_width, int image_height) {
   columns = (image_width + kTileSize - 1) / kTileSize;
   rows = (image_height + kTileSize - 1) / kTileSize;
-  const auto tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  for (auto* values : {&count, &x, &y, &z, &xx, &xy, &xz, &yy, &yz, &zz}) values->resize(tiles);
+  const std::size_t padded = (size() + kTileSize - 1) / kTileSize * kTileSize;
+  for (auto* values : {&count, &x, &y, &z, &xx, &xy, &xz, &yy, &yz, &zz}) {
+    values->resize(padded);
+    std::fill(values->begin() + static_cast<std::ptrdiff_t>(size()), values->end(), 0.0F);
+  }
 }
 
 void computeTileMoments(const DepthView& depth, const RayTable& rays, float range_min,

@@ -16,7 +16,37 @@ HWY_BEFORE_NAMESPACE();
 namespace dominant_plane_detection {
 namespace HWY_NAMESPACE {
 
-constexpr int kSums = 10;
+constexpr int kSums = 12;  // ten, and room for whole vectors of four
+
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE void addTotals(Vector a, Vector b, Vector c, Vector e, float* totals) {
+  totals[0] += hn::GetLane(a);
+  totals[1] += hn::GetLane(b);
+  totals[2] += hn::GetLane(c);
+  totals[3] += hn::GetLane(e);
+}
+#else
+/// Adds the sums over the lanes of four vectors to four neighbouring floats; a third of the work of
+/// four sums one by one.
+HWY_INLINE void addTotals(Vector a, Vector b, Vector c, Vector e, float* totals) {
+  const Floats d;
+  const hn::Repartition<double, Floats> pairs;
+  const hn::CappedTag<float, 4> four;
+  // Blocks of four lanes: (a0 + a2, b0 + b2, a1 + a3, b1 + b3).
+  const auto ab = hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
+  const auto ce = hn::Add(hn::InterleaveLower(d, c, e), hn::InterleaveUpper(d, c, e));
+  const auto low = hn::InterleaveLower(pairs, hn::BitCast(pairs, ab), hn::BitCast(pairs, ce));
+  const auto high = hn::InterleaveUpper(pairs, hn::BitCast(pairs, ab), hn::BitCast(pairs, ce));
+  const auto blocks = hn::Add(hn::BitCast(d, low), hn::BitCast(d, high));
+  alignas(32) float sums[kTileSize];
+  hn::Store(blocks, d, sums);
+  auto total = hn::LoadU(four, totals);
+  for (std::size_t i = 0; i < hn::Lanes(d); i += 4) {
+    total = hn::Add(total, hn::Load(four, sums + i));
+  }
+  hn::StoreU(total, four, totals);
+}
+#endif
 
 /// Sums over the readings of a tile, relative to a reference point near them: close to the origin
 /// of the sums, float keeps the plane's thickness.
@@ -27,7 +57,6 @@ HWY_INLINE void sumTile(const PixelRow<Pixel>* rows, int row_count, const Readin
   const auto x0 = hn::Set(d, reference[0]);
   const auto y0 = hn::Set(d, reference[1]);
   const auto z0 = hn::Set(d, reference[2]);
-  totals.fill(0.0F);
   for (int i = 0; i < kTileSize; i += static_cast<int>(hn::Lanes(d))) {
     auto n = hn::Zero(d), sx = n, sy = n, sz = n;
     auto sxx = n, sxy = n, sxz = n, syy = n, syz = n, szz = n;
@@ -47,10 +76,9 @@ HWY_INLINE void sumTile(const PixelRow<Pixel>* rows, int row_count, const Readin
       syz = hn::MulAdd(dy, dz, syz);
       szz = hn::MulAdd(dz, dz, szz);
     }
-    std::size_t sum = 0;
-    for (const auto& lanes : {n, sx, sy, sz, sxx, sxy, sxz, syy, syz, szz}) {
-      totals[sum++] += hn::GetLane(hn::SumOfLanes(d, lanes));
-    }
+    addTotals(n, sx, sy, sz, &totals[0]);
+    addTotals(sxx, sxy, sxz, syy, &totals[4]);
+    addTotals(syz, szz, syz, szz, &totals[8]);
   }
 }
 
@@ -75,30 +103,50 @@ HWY_INLINE void storeTile(const std::array<float, kSums>& totals,
   tiles.zz[tile] = totals[9] * inverse - mz * mz;
 }
 
-/// @return one of the tile's points, its middle one if that has a reading; the origin if none has.
 template <bool kSeparable, typename Pixel>
-HWY_INLINE std::array<float, 3> referencePoint(const PixelRow<Pixel>* rows, int row_count,
-                                               const ReadingRange& range) {
-  const int middle = row_count / 2 * kTileSize + kTileSize / 2;
-  for (int i = 0; i < row_count * kTileSize; ++i) {
-    const int pixel = (middle + i) % (row_count * kTileSize);
+HWY_INLINE bool anyReading(const PixelRow<Pixel>* rows, int row_count, const ReadingRange& range) {
+  const Floats d;
+  auto any = hn::MaskFromVec(hn::Zero(d));
+  for (int row = 0; row < row_count; ++row) {
+    for (int i = 0; i < kTileSize; i += static_cast<int>(hn::Lanes(d))) {
+      any = hn::Or(any, loadPoints<kSeparable>(rows[row], i, range).valid);
+    }
+  }
+  return !hn::AllFalse(d, any);
+}
+
+/// Sets `reference` to one of the tile's points, its middle one if that has a reading.
+/// @return false for a tile without a reading.
+template <bool kSeparable, typename Pixel>
+HWY_INLINE bool findReference(const PixelRow<Pixel>* rows, int row_count, const ReadingRange& range,
+                              std::array<float, 3>& reference) {
+  const auto try_pixel = [&](int pixel) {
     const PixelRow<Pixel>& row = rows[pixel / kTileSize];
     const int column = pixel % kTileSize;
     const float z = static_cast<float>(row.pixels[column]) * range.metres_per_unit;
     const float x = row.x[column];
     const float y = row.y[kSeparable ? 0 : column];
     // Where the lens model cannot be inverted, x is NaN.
-    if (z >= range.min && z <= range.max && x == x) return {z * x, z * y, z};
+    if (!(z >= range.min && z <= range.max && x == x)) return false;
+    reference = {z * x, z * y, z};
+    return true;
+  };
+  if (try_pixel(row_count / 2 * kTileSize + kTileSize / 2)) return true;
+  if (!anyReading<kSeparable>(rows, row_count, range)) return false;
+  for (int pixel = 0; pixel < row_count * kTileSize; ++pixel) {
+    if (try_pixel(pixel)) return true;
   }
-  return {0.0F, 0.0F, 0.0F};
+  return false;
 }
 
 template <bool kSeparable, typename Pixel>
 HWY_INLINE void computeTile(const PixelRow<Pixel>* rows, int row_count, const ReadingRange& range,
                             std::size_t tile, TileMoments& tiles) {
-  const std::array<float, 3> reference = referencePoint<kSeparable>(rows, row_count, range);
-  std::array<float, kSums> totals;
-  sumTile<kSeparable>(rows, row_count, range, reference, totals);
+  std::array<float, 3> reference{};
+  std::array<float, kSums> totals{};
+  if (findReference<kSeparable>(rows, row_count, range, reference)) {
+    sumTile<kSeparable>(rows, row_count, range, reference, totals);
+  }
   storeTile(totals, reference, tile, tiles);
 }
 
