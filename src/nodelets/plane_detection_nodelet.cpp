@@ -39,7 +39,7 @@ void PlaneDetectionNodelet::start() {
   detector_ = DominantPlaneDetector(loadParameters(private_node, {"input", "rectified"}));
   inputs_ = std::make_unique<DetectionInputs>(
       getNodeHandle(), readInputKind(private_node), private_node.param("rectified", false),
-      [this](const DetectionInputs::Frame& frame) { onFrame(frame); });
+      [this](const DetectionInputs::Frame& frame) { onFrame(frame); }, [this] { onPicture(); });
   outputs_.advertise(private_node, [this] { onListenersChanged(); });
   reconfigure_ =
       std::make_unique<dynamic_reconfigure::Server<PlaneDetectionConfig>>(mutex_, private_node);
@@ -63,6 +63,11 @@ void PlaneDetectionNodelet::onFrame(const DetectionInputs::Frame& frame) {
   } catch (const std::exception& error) {
     NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped an image: " << error.what());
   }
+}
+
+void PlaneDetectionNodelet::onPicture() {
+  const boost::lock_guard<boost::recursive_mutex> lock(mutex_);
+  outputs_.publishWaitingOverlay(*inputs_);
 }
 
 void PlaneDetectionNodelet::onReconfigure(PlaneDetectionConfig& config) {

@@ -25,6 +25,7 @@ class PlaneDetectionNodelet : public nodelet::Nodelet {
   void start();
   void onListenersChanged();
   void onFrame(const DetectionInputs::Frame& frame);
+  void onPicture();
   void onReconfigure(PlaneDetectionConfig& config);
 
   /// Held by every callback: connections come from other threads than messages do.

@@ -34,12 +34,13 @@ std::string topicsOfType(const std::string& type) {
 }  // namespace
 
 DetectionInputs::DetectionInputs(const ros::NodeHandle& node, InputKind kind, bool rectified,
-                                 Callback callback)
+                                 Callback callback, PictureCallback picture_callback)
     : node_(node),
       transport_(node),
       kind_(kind),
       rectified_(rectified),
-      callback_(std::move(callback)) {}
+      callback_(std::move(callback)),
+      picture_callback_(std::move(picture_callback)) {}
 
 void DetectionInputs::subscribe() {
   subscribed_ = true;
@@ -121,6 +122,7 @@ void DetectionInputs::onPoints(
 void DetectionInputs::onPicture(const sensor_msgs::ImageConstPtr& picture) {
   recent_pictures_.push_back(picture);
   if (recent_pictures_.size() > kPictures) recent_pictures_.pop_front();
+  picture_callback_();
 }
 
 std::optional<cv::Mat> DetectionInputs::picture(const std_msgs::Header& header, int width,

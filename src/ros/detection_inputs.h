@@ -34,15 +34,20 @@ class DetectionInputs {
     CameraModel camera;
   };
   using Callback = std::function<void(const Frame&)>;
+  using PictureCallback = std::function<void()>;
 
   /// @param node topics are relative to it.
   /// @param rectified whether depth images are; clouds and their cameras say it themselves.
-  DetectionInputs(const ros::NodeHandle& node, InputKind kind, bool rectified, Callback callback);
+  /// @param picture_callback called when there is a new picture.
+  DetectionInputs(const ros::NodeHandle& node, InputKind kind, bool rectified, Callback callback,
+                  PictureCallback picture_callback);
 
   void subscribe();
   void unsubscribe();
   bool subscribed() const { return subscribed_; }
 
+  /// @return whether somebody publishes pictures, so that one may still come.
+  bool expectsPictures() const { return pictures_.getNumPublishers() > 0; }
   /// @return the picture that belongs to a depth image: 8-bit BGR of its size, of a stamp less than
   /// half an image's time away; nothing if there is none.
   std::optional<cv::Mat> picture(const std_msgs::Header& header, int width, int height) const;
@@ -60,6 +65,7 @@ class DetectionInputs {
   InputKind kind_;
   bool rectified_;
   Callback callback_;
+  PictureCallback picture_callback_;
 
   bool subscribed_ = false;
   bool received_ = false;       ///< anything since the subscription

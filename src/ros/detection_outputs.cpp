@@ -52,7 +52,11 @@ void DetectionOutputs::publish(const DetectionInputs::Frame& frame, const Detect
   }
   if (mask_.getNumSubscribers() > 0) mask_.publish(maskMessage(frame.header, detection));
   publishClouds(frame, detection);
-  if (overlay_.getNumSubscribers() > 0) publishOverlay(frame, detection, inputs);
+  if (overlay_.getNumSubscribers() > 0) {
+    prepareOverlay(frame, detection, inputs);
+  } else {
+    waiting_.reset();
+  }
 }
 
 void DetectionOutputs::publishClouds(const DetectionInputs::Frame& frame,
@@ -68,14 +72,28 @@ void DetectionOutputs::publishClouds(const DetectionInputs::Frame& frame,
   publish(ground_, Label::kGround);
 }
 
-void DetectionOutputs::publishOverlay(const DetectionInputs::Frame& frame,
+void DetectionOutputs::prepareOverlay(const DetectionInputs::Frame& frame,
                                       const Detection& detection, const DetectionInputs& inputs) {
-  cv::Mat picture =
-      inputs.picture(frame.header, detection.width, detection.height).value_or(cv::Mat());
-  if (picture.empty()) picture = greyPicture(frame.depth);
-  paintOverlay(detection, picture);
-  overlay_.publish(
-      cv_bridge::CvImage(frame.header, sensor_msgs::image_encodings::BGR8, picture).toImageMsg());
+  if (waiting_) publishOverlay(std::nullopt);  // its picture never came
+  waiting_ = WaitingOverlay{frame.header, detection, greyPicture(frame.depth)};
+  publishWaitingOverlay(inputs);
+  if (waiting_ && !inputs.expectsPictures()) publishOverlay(std::nullopt);
+}
+
+void DetectionOutputs::publishWaitingOverlay(const DetectionInputs& inputs) {
+  if (!waiting_) return;
+  const auto picture =
+      inputs.picture(waiting_->header, waiting_->detection.width, waiting_->detection.height);
+  if (picture) publishOverlay(picture);
+}
+
+/// Publishes what waits, over the picture or else over the grey one.
+void DetectionOutputs::publishOverlay(const std::optional<cv::Mat>& picture) {
+  cv::Mat painted = picture.value_or(waiting_->grey);
+  paintOverlay(waiting_->detection, painted);
+  overlay_.publish(cv_bridge::CvImage(waiting_->header, sensor_msgs::image_encodings::BGR8, painted)
+                       .toImageMsg());
+  waiting_.reset();
 }
 
 }  // namespace dominant_plane_detection

@@ -4,6 +4,8 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <opencv2/core/mat.hpp>
+#include <optional>
 
 #include "dominant_plane_detection/camera_model.h"
 #include "dominant_plane_detection/detection.h"
@@ -27,10 +29,21 @@ class DetectionOutputs {
   void publish(const DetectionInputs::Frame& frame, const Detection& detection,
                double processing_time, const DetectionInputs& inputs);
 
+  /// Publishes the overlay that waits for its picture, if it has come.
+  void publishWaitingOverlay(const DetectionInputs& inputs);
+
  private:
+  /// A picture may come later than the depth image that it belongs to.
+  struct WaitingOverlay {
+    std_msgs::Header header;
+    Detection detection;
+    cv::Mat grey;  ///< made from the depth, for when no picture comes until the next image
+  };
+
   void publishClouds(const DetectionInputs::Frame& frame, const Detection& detection);
-  void publishOverlay(const DetectionInputs::Frame& frame, const Detection& detection,
+  void prepareOverlay(const DetectionInputs::Frame& frame, const Detection& detection,
                       const DetectionInputs& inputs);
+  void publishOverlay(const std::optional<cv::Mat>& picture);
 
   ros::Publisher plane_;
   ros::Publisher coefficients_;
@@ -39,6 +52,7 @@ class DetectionOutputs {
   image_transport::Publisher mask_;
   image_transport::Publisher overlay_;
   RayTable rays_;
+  std::optional<WaitingOverlay> waiting_;
 };
 
 }  // namespace dominant_plane_detection

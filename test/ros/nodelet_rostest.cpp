@@ -161,6 +161,40 @@ TEST_F(Nodelet, AllOutputsOfOneImage) {
   }
 }
 
+TEST_F(Nodelet, OverlayTakesThePictureThatComesLater) {
+  const ros::Publisher pictures = node_.advertise<sensor_msgs::Image>("/image", 5);
+  Listener<sensor_msgs::Image> overlays(node_, "/plane_detection/overlay");
+  ASSERT_TRUE(waitForSubscription());
+  ASSERT_TRUE(spinUntil([&] { return pictures.getNumSubscribers() > 0 && overlays.connected(); }));
+  sensor_msgs::Image picture;
+  picture.encoding = "rgb8";
+  picture.width = 640;
+  picture.height = 480;
+  picture.step = 3 * picture.width;
+  picture.data.assign(picture.step * picture.height, 0);
+  for (std::size_t i = 0; i < picture.data.size(); i += 3) picture.data[i + 2] = 240;  // blue
+
+  picture.header.stamp = send(image_);
+  pictures.publish(picture);
+  ASSERT_TRUE(spinUntil([&] { return overlays.size() == 1; }));
+  EXPECT_EQ(overlays.last()->header.stamp, picture.header.stamp);
+  const auto pixel = [&](int u, int v, std::uint32_t channel) {
+    return static_cast<int>(
+        overlays.last()->data[static_cast<std::size_t>(v) * overlays.last()->step +
+                              3 * static_cast<std::size_t>(u) + channel]);
+  };
+  EXPECT_EQ(pixel(330, 400, 0), 0);    // ground: black
+  EXPECT_EQ(pixel(330, 230, 0), 180);  // box: two thirds of the picture's blue, a third of the tint
+  EXPECT_EQ(pixel(330, 230, 2), 85);
+
+  // Two images without a picture: the first is not held back when the second comes.
+  const ros::Time grey = send(image_);
+  send(image_);
+  ASSERT_TRUE(spinUntil([&] { return overlays.size() == 2; }));
+  EXPECT_EQ(overlays.last()->header.stamp, grey);
+  EXPECT_EQ(pixel(330, 230, 0), pixel(330, 230, 1));  // grey, tinted red
+}
+
 TEST_F(Nodelet, EveryKindOfDepthImage) {
   Listener<DominantPlane> planes(node_, "/plane_detection/plane");
   ASSERT_TRUE(waitForSubscription());
