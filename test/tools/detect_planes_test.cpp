@@ -1,0 +1,215 @@
+// The command lines of detect_planes and render_scene, as users type them.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace dominant_plane_detection {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* kCamera = " --camera 580,580,319.5,239.5 ";
+
+struct Outcome {
+  int status;
+  std::string text;  ///< standard output and standard error
+};
+
+Outcome run(const std::string& command) {
+  Outcome outcome{-1, ""};
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  char buffer[256];
+  while (fgets(buffer, sizeof(buffer), pipe) != nullptr) outcome.text += buffer;
+  const int status = pclose(pipe);
+  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+using Row = std::vector<std::string>;
+
+/// @return rows by their first field; the header's is "frame".
+std::map<std::string, Row> readCsv(const fs::path& file) {
+  std::map<std::string, Row> rows;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    Row row;
+    std::istringstream fields(line + ",");
+    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+    rows[row.front()] = row;
+  }
+  return rows;
+}
+
+/// Two images of the bin scene as a folder and as a bag, rendered once.
+class DetectPlanes : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::temp_directory_path() / ("detect_planes_test_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+    const std::string render = std::string(DPD_RENDER_SCENE) + " " + DPD_SOURCE +
+                               "/scenes/rubbish_bin.yaml --rate 1 --duration 1 --output ";
+    ASSERT_EQ(run(render + (folder_ / "images").string()).status, 0);
+    ASSERT_EQ(run(render + (folder_ / "drive.bag").string()).status, 0);
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static std::string path(const std::string& name) { return (folder_ / name).string(); }
+  /// Runs detect_planes with its output in a new folder `out`.
+  static Outcome detect(const std::string& arguments) {
+    fs::remove_all(folder_ / "out");
+    return run(std::string(DPD_DETECT_PLANES) + " --output " + path("out") + " " + arguments);
+  }
+  static std::map<std::string, Row> planes() { return readCsv(folder_ / "out" / "planes.csv"); }
+
+  static void expectTruth(const Row& row) {
+    ASSERT_EQ(row.size(), 9U);
+    EXPECT_EQ(row[1], "FOUND");
+    EXPECT_NEAR(std::stod(row[3]), -std::cos(0.22), 0.002);
+    EXPECT_NEAR(std::stod(row[4]), -std::sin(0.22), 0.002);
+    EXPECT_NEAR(std::stod(row[5]), 0.45, 0.002);
+    EXPECT_GT(std::stoi(row[7]), 100000);
+  }
+
+  static fs::path folder_;
+};
+fs::path DetectPlanes::folder_;
+
+TEST_F(DetectPlanes, FolderOfPngFiles) {
+  const Outcome outcome = detect(path("images/depth") + kCamera);
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("2 images, 2 FOUND"), std::string::npos) << outcome.text;
+  const auto rows = planes();
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows.at("frame"), (Row{"frame", "state", "normal_x", "normal_y", "normal_z", "distance",
+                                   "mse", "inliers", "ms"}));
+  expectTruth(rows.at("0000"));
+  expectTruth(rows.at("0001"));
+  const cv::Mat mask = cv::imread(path("out/masks/0001.png"), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(mask.type(), CV_8UC1);
+  EXPECT_EQ(cv::countNonZero(mask), std::stoi(rows.at("0001")[7]));
+  EXPECT_EQ(mask.at<std::uint8_t>(470, 320), 255);
+  const cv::Mat overlay = cv::imread(path("out/overlays/0001.png"), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(overlay.type(), CV_8UC3);
+  EXPECT_EQ(overlay.at<cv::Vec3b>(470, 320), cv::Vec3b(0, 0, 0));
+}
+
+TEST_F(DetectPlanes, Bag) {
+  const Outcome outcome = detect(path("drive.bag"));
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  const auto rows = planes();
+  ASSERT_EQ(rows.size(), 3U);
+  expectTruth(rows.at("1600000000.000000000"));
+  expectTruth(rows.at("1600000001.000000000"));
+  EXPECT_TRUE(fs::exists(path("out/masks/1600000001.000000000.png")));
+  const Outcome topic = detect(path("drive.bag") + " --topic /nothing");
+  EXPECT_EQ(topic.status, 1);
+  EXPECT_NE(topic.text.find("/camera/depth/image_raw"), std::string::npos) << topic.text;
+}
+
+TEST_F(DetectPlanes, BothAlgorithmsAgree) {
+  const Outcome outcome = detect(path("images/depth/0000.png") + kCamera + "--algorithm kdtree");
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  expectTruth(planes().at("0000"));
+}
+
+TEST_F(DetectPlanes, WhatCannotBeReadIsNamedAndTheRestProcessed) {
+  std::ofstream(path("broken.png")) << "no picture";
+  std::ofstream(path("broken.bag")) << "no bag";
+  cv::imwrite(path("colour.png"), cv::Mat(480, 640, CV_8UC3, cv::Scalar(1, 2, 3)));
+  const Outcome outcome =
+      detect(path("broken.png") + " " + path("colour.png") + " " + path("broken.bag") + " " +
+             path("missing.png") + " " + path("images/depth/0000.png") + kCamera);
+  EXPECT_EQ(outcome.status, 1);
+  for (const char* name : {"broken.png", "colour.png", "broken.bag", "missing.png"}) {
+    EXPECT_NE(outcome.text.find(name), std::string::npos) << name << " in " << outcome.text;
+  }
+  const auto rows = planes();
+  ASSERT_EQ(rows.size(), 2U);
+  expectTruth(rows.at("0000"));
+}
+
+TEST_F(DetectPlanes, AnImageWithoutAPlaneHasItsRowAndABlackMask) {
+  cv::imwrite(path("empty.png"), cv::Mat(480, 640, CV_16UC1, cv::Scalar(0)));
+  const Outcome outcome = detect(path("empty.png") + kCamera);
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  const Row row = planes().at("empty");
+  ASSERT_EQ(row.size(), 9U);
+  EXPECT_EQ(row[1], "NO_DEPTH");
+  for (int i = 2; i <= 6; ++i) EXPECT_EQ(row[static_cast<std::size_t>(i)], "");
+  EXPECT_EQ(row[7], "0");
+  const cv::Mat mask = cv::imread(path("out/masks/empty.png"), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(mask.size(), cv::Size(640, 480));
+  EXPECT_EQ(cv::countNonZero(mask), 0);
+}
+
+TEST_F(DetectPlanes, EqualStemsGetTheirFoldersNames) {
+  fs::create_directories(folder_ / "second");
+  fs::copy_file(path("images/depth/0000.png"), path("second/0000.png"),
+                fs::copy_options::overwrite_existing);
+  EXPECT_EQ(detect(path("images/depth/0000.png") + " " + path("second") + kCamera).status, 0);
+  const auto rows = planes();
+  EXPECT_EQ(rows.count("depth_0000"), 1U);
+  EXPECT_EQ(rows.count("second_0000"), 1U);
+}
+
+TEST_F(DetectPlanes, ParametersFromFileAndCommandLine) {
+  std::ofstream(path("p.yaml")) << "range_max: 1.0\ninput: depth\n";
+  const std::string image = path("images/depth/0000.png") + kCamera;
+  EXPECT_EQ(detect(image).status, 0);
+  const int all = std::stoi(planes().at("0000")[7]);
+  EXPECT_EQ(detect(image + "--params " + path("p.yaml")).status, 0);
+  const int near = std::stoi(planes().at("0000")[7]);
+  EXPECT_LT(near, all / 2);
+  EXPECT_EQ(detect(image + "--params " + path("p.yaml") + " --range 0.5,4.0").status, 0);
+  EXPECT_EQ(std::stoi(planes().at("0000")[7]), all);
+  EXPECT_EQ(detect(image + "--set range_max=1.0 --set seeds=9").status, 0);
+  EXPECT_EQ(std::stoi(planes().at("0000")[7]), near);
+}
+
+TEST_F(DetectPlanes, UsageErrorsSayWhatWasExpected) {
+  const std::string image = path("images/depth/0000.png") + " ";
+  const auto expectError = [&](const std::string& arguments, const char* words) {
+    const Outcome outcome = detect(arguments);
+    EXPECT_NE(outcome.status, 0) << arguments;
+    EXPECT_NE(outcome.text.find(words), std::string::npos) << outcome.text;
+  };
+  expectError(image, "--camera FX,FY,CX,CY");
+  expectError(image + "--camera 1,2,3", "--camera");
+  expectError(image + kCamera + "--set nonsense=1", "there is no parameter 'nonsense'");
+  expectError(image + kCamera + "--set range_max", "NAME=VALUE");
+  expectError(image + kCamera + "--range 4,1", "range_min has to be smaller than range_max");
+  expectError(image + kCamera + "--params " + path("missing.yaml"), "missing.yaml");
+  expectError(image + "--camera-info " + path("missing.yaml"), "missing.yaml");
+  expectError(image + kCamera + "--depth-scale -5", "--depth-scale");
+  const Outcome help = run(std::string(DPD_DETECT_PLANES) + " --help");
+  EXPECT_EQ(help.status, 0);
+  EXPECT_NE(help.text.find("--depth-scale"), std::string::npos);
+}
+
+TEST_F(DetectPlanes, CameraInfoFile) {
+  std::ofstream(path("camera.yaml"))
+      << "image_width: 640\nimage_height: 480\ncamera_name: kinect\n"
+         "camera_matrix: {rows: 3, cols: 3, data: [580, 0, 319.5, 0, 580, 239.5, 0, 0, 1]}\n"
+         "distortion_model: plumb_bob\n"
+         "distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"
+         "rectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}\n"
+         "projection_matrix: {rows: 3, cols: 4, data: [580, 0, 319.5, 0, 0, 580, 239.5, 0, 0, 0, "
+         "1, "
+         "0]}\n";
+  EXPECT_EQ(detect(path("images/depth/0000.png") + " --camera-info " + path("camera.yaml")).status,
+            0);
+  expectTruth(planes().at("0000"));
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection
