@@ -59,6 +59,7 @@ class GridRegionGrowing {
   bool within(const Height& height, double limit) const;
   bool close(std::size_t tile, std::size_t neighbour) const;
   void claim(std::size_t tile);
+  void claimTilesOnPlane();
   bool startRegion(std::size_t seed);
   bool tryToJoin(std::size_t tile);
   void join(std::size_t tile);

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "plane_refinement_kernel.h"
@@ -21,7 +22,7 @@ constexpr double kRefitGrowth = 1.25;
 /// What is not worth a fit of its own: a tile farther off than this many times gamma, and one that
 /// would be a smaller share of the region than this, which cannot turn the plane towards itself.
 constexpr double kHopeless = 1.5;
-constexpr double kNoticeable = 0.02;
+constexpr double kNoticeable = 0.05;
 /// Tiles that a region starts from, its seed among them: three times three, less a third.
 constexpr std::size_t kMinStart = 6;
 /// A plane has settled when growing by kRefitGrowth moves it by less than this share of gamma.
@@ -59,7 +60,7 @@ void GridRegionGrowing::start(const TileMoments& tiles, const GrowthThresholds& 
   gamma_of_z_ = thresholds.gamma;
   nearest_ = std::numeric_limits<double>::infinity();
   farthest_ = 0.0;
-  claimed_.assign(size, 0);
+  claimed_.assign(tiles.count.size(), 0);
   joined_.assign(size, 0);
   growth_ = 0;
   available_points_ = 0;
@@ -109,6 +110,17 @@ void GridRegionGrowing::claim(std::size_t tile) {
   if (claimed_[tile]) return;
   claimed_[tile] = 1;
   if (usable(tile)) available_points_ -= static_cast<std::size_t>(tiles_->count[tile]);
+}
+
+void GridRegionGrowing::claimTilesOnPlane() {
+  for (std::size_t i = 0; i < on_plane_.size(); i += sizeof(std::uint64_t)) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, &on_plane_[i], sizeof(eight));
+    if (eight == 0) continue;  // most of them, where the plane is small
+    for (std::size_t tile = i; tile < i + sizeof(eight); ++tile) {
+      if (on_plane_[tile]) claim(tile);
+    }
+  }
 }
 
 void GridRegionGrowing::join(std::size_t tile) {
@@ -228,9 +240,7 @@ std::optional<GridRegionGrowing::Region> GridRegionGrowing::refine(const HessePl
     if (change.head<2>().norm() < kFinalNormal && std::abs(change[2]) < kFinalDistance) break;
     if (region.points < worthwhile) break;
   }
-  for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
-    if (on_plane_[tile]) claim(tile);
-  }
+  claimTilesOnPlane();
   return region;
 }
 

@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace dominant_plane_detection {
 namespace HWY_NAMESPACE {
 
-constexpr int kSums = 12;  // ten, and room for whole vectors of four
+constexpr int kSums = 10;
 
 #if HWY_TARGET == HWY_SCALAR
 HWY_INLINE void addTotals(Vector a, Vector b, Vector c, Vector e, float* totals) {
@@ -58,14 +58,15 @@ HWY_INLINE void sumTile(const PixelRow<Pixel>* rows, int row_count, const Readin
   const auto y0 = hn::Set(d, reference[1]);
   const auto z0 = hn::Set(d, reference[2]);
   for (int i = 0; i < kTileSize; i += static_cast<int>(hn::Lanes(d))) {
-    auto n = hn::Zero(d), sx = n, sy = n, sz = n;
-    auto sxx = n, sxy = n, sxz = n, syy = n, syz = n, szz = n;
+    auto sx = hn::Zero(d), sy = sx, sz = sx;
+    auto sxx = sx, sxy = sx, sxz = sx, syy = sx, syz = sx, szz = sx;
+    std::size_t count = 0;  // a tenth vector of sums would not fit into the registers
     for (int row = 0; row < row_count; ++row) {
       const auto point = loadPoints<kSeparable>(rows[row], i, range);
       const auto dx = hn::IfThenElseZero(point.valid, hn::MulSub(point.z, point.ray_x, x0));
       const auto dy = hn::IfThenElseZero(point.valid, hn::MulSub(point.z, point.ray_y, y0));
       const auto dz = hn::IfThenElseZero(point.valid, hn::Sub(point.z, z0));
-      n = hn::Add(n, hn::IfThenElseZero(point.valid, hn::Set(d, 1.0F)));
+      count += hn::CountTrue(d, point.valid);
       sx = hn::Add(sx, dx);
       sy = hn::Add(sy, dy);
       sz = hn::Add(sz, dz);
@@ -76,9 +77,10 @@ HWY_INLINE void sumTile(const PixelRow<Pixel>* rows, int row_count, const Readin
       syz = hn::MulAdd(dy, dz, syz);
       szz = hn::MulAdd(dz, dz, szz);
     }
-    addTotals(n, sx, sy, sz, &totals[0]);
-    addTotals(sxx, sxy, sxz, syy, &totals[4]);
-    addTotals(syz, szz, syz, szz, &totals[8]);
+    totals[0] += static_cast<float>(count);
+    addTotals(sx, sy, sz, sxx, &totals[1]);
+    addTotals(sxy, sxz, syy, syz, &totals[5]);
+    totals[9] += hn::GetLane(hn::SumOfLanes(d, szz));
   }
 }
 

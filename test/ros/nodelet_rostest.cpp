@@ -164,8 +164,11 @@ TEST_F(Nodelet, AllOutputsOfOneImage) {
 TEST_F(Nodelet, OverlayTakesThePictureThatComesLater) {
   const ros::Publisher pictures = node_.advertise<sensor_msgs::Image>("/image", 5);
   Listener<sensor_msgs::Image> overlays(node_, "/plane_detection/overlay");
+  Listener<DominantPlane> planes(node_, "/plane_detection/plane");
   ASSERT_TRUE(waitForSubscription());
-  ASSERT_TRUE(spinUntil([&] { return pictures.getNumSubscribers() > 0 && overlays.connected(); }));
+  ASSERT_TRUE(spinUntil([&] {
+    return pictures.getNumSubscribers() > 0 && overlays.connected() && planes.connected();
+  }));
   sensor_msgs::Image picture;
   picture.encoding = "rgb8";
   picture.width = 640;
@@ -188,10 +191,11 @@ TEST_F(Nodelet, OverlayTakesThePictureThatComesLater) {
   EXPECT_EQ(pixel(330, 230, 2), 85);
 
   // Two images without a picture: the first is not held back when the second comes.
-  const ros::Time grey = send(image_);
+  const auto first = detect(planes, image_);
+  ASSERT_TRUE(first);
   send(image_);
   ASSERT_TRUE(spinUntil([&] { return overlays.size() == 2; }));
-  EXPECT_EQ(overlays.last()->header.stamp, grey);
+  EXPECT_EQ(overlays.last()->header.stamp, first->header.stamp);
   EXPECT_EQ(pixel(330, 230, 0), pixel(330, 230, 1));  // grey, tinted red
 }
 
