@@ -101,11 +101,11 @@ class TableReporter : public benchmark::ConsoleReporter {
 int main(int argc, char** argv) {
   using namespace dominant_plane_detection;
   cv::setNumThreads(1);
-  static const std::vector<ReferenceSet> sets = loadAllSets(20);
+  static const std::vector<ReferenceSet> sets = loadAllSets(10);
   for (const ReferenceSet& set : sets) addAll(set);
   std::vector<char*> arguments(argv, argv + argc);
   std::string interleave = "--benchmark_enable_random_interleaving=true";
-  std::string repetitions = "--benchmark_repetitions=7";
+  std::string repetitions = "--benchmark_repetitions=5";
   std::string time = "--benchmark_min_time=0.05";
   arguments.insert(arguments.begin() + 1, {interleave.data(), repetitions.data(), time.data()});
   int count = static_cast<int>(arguments.size());

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "dominant_plane_detection/kdtree_region_growing.h"
+#include "dominant_plane_detection/growth_thresholds.h"
 #include "dominant_plane_detection/plane_moments.h"
 #include "dominant_plane_detection/tile_moments.h"
 

@@ -6,18 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "dominant_plane_detection/noise_model.h"
+#include "dominant_plane_detection/growth_thresholds.h"
 #include "dominant_plane_detection/plane_moments.h"
 
 namespace dominant_plane_detection {
-
-/// When a candidate may join a region (section III.B). Constant in the paper, here of the depth z.
-struct GrowthThresholds {
-  NoiseModel noise;
-  DepthThreshold delta;    ///< [m] farthest from the region's nearest point
-  DepthThreshold epsilon;  ///< [m] square root of the largest mean square error
-  DepthThreshold gamma;    ///< [m] farthest from the plane refitted with the candidate
-};
 
 /// Algorithm 1: grows a plane point by point, nearest candidates first.
 ///
@@ -26,7 +18,8 @@ struct GrowthThresholds {
 /// candidate r joins when the region with r has a mean square error (Eq. 8) below the mean of
 /// epsilon(z_i)^2 over its points, and r is closer than gamma(z_r) to the plane refitted with r.
 /// Every point that joins updates the moments by Eq. 10; bounds save the eigen-decompositions that
-/// would change no decision.
+/// would change no decision, and most of a delta-ball is searched only when everything nearer was
+/// tested, among the few points that are left by then.
 class KdtreeRegionGrowing {
  public:
   struct Region {
@@ -53,7 +46,7 @@ class KdtreeRegionGrowing {
   const Effort& effort() const { return effort_; }
 
  private:
-  class Neighbours;  // the k-d tree
+  class Neighbours;  // a k-d tree
 
   /// A candidate and its squared distance to the region when it was put into the queue.
   struct Candidate {
@@ -62,16 +55,23 @@ class KdtreeRegionGrowing {
   };
 
   void join(std::size_t point, const GrowthThresholds& thresholds);
+  void offerNeighbours(std::size_t point, double radius);
+  bool nearestIsCertain() const;
+  void searchWhatWasDeferred(const GrowthThresholds& thresholds);
   bool test(std::size_t point, const GrowthThresholds& thresholds);
   bool settledByBounds(const PlaneMoments& with_point, const Eigen::Vector3d& point, double gamma,
                        double sum_epsilon2) const;
   void push(const Candidate& candidate);
   Candidate pop();
 
-  std::unique_ptr<Neighbours> neighbours_;
-  std::vector<Eigen::Vector3d> points_;  ///< [m]
+  std::unique_ptr<Neighbours> all_;
+  std::unique_ptr<Neighbours> untested_;  ///< points that were untested when it was built
+  const Neighbours* searched_ = nullptr;  ///< one of the two
+  std::vector<Eigen::Vector3d> points_;   ///< [m]
   std::vector<double> key_;  ///< [m^2] squared distance to the region; -1 once it was tested
   std::vector<Candidate> queue_;
+  std::vector<std::size_t> deferred_;  ///< region points whose ball was searched in part only
+  double squared_horizon_ = 0.0;  ///< [m^2] up to which the balls of all of these were searched
   Region region_;
   PlaneFit fit_{};             ///< of the last decomposition
   double sum_epsilon2_ = 0.0;  ///< [m^2] over the region's points

@@ -12,6 +12,10 @@ namespace {
 constexpr double kTested = -1.0;
 /// Bounds have to hold by more than rounding could take from them.
 constexpr double kRounding = 1e-6;
+/// Share of delta that is searched when a point joins; the rest of the ball is deferred.
+constexpr double kNearShare = 1.0 / 3.0;
+/// Searches that cost as much as putting this many points into a tree of their own.
+constexpr std::size_t kPointsPerSearch = 10;
 
 /// Order of a heap with the nearest candidate on top; of equally near ones, that of lower index.
 constexpr auto later = [](const auto& a, const auto& b) {
@@ -42,15 +46,26 @@ class BallVisitor {
 
 class KdtreeRegionGrowing::Neighbours {
  public:
-  explicit Neighbours(const std::vector<Eigen::Vector3d>& points)
-      : points_{points}, tree_(3, points_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {
+  /// Takes the points whose index satisfies `wanted`; copied, so that they lie side by side.
+  template <typename Predicate>
+  void build(const std::vector<Eigen::Vector3d>& points, Predicate wanted) {
+    points_.clear();
+    indices_.clear();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!wanted(i)) continue;
+      points_.push_back(points[i]);
+      indices_.push_back(i);
+    }
     tree_.buildIndex();
   }
 
   /// Calls function(squared distance, index) for the points closer than `radius` to `centre`.
   template <typename Function>
   void visit(const Eigen::Vector3d& centre, double radius, Function function) const {
-    BallVisitor<Function> visitor(radius * radius, function);
+    const auto visit_index = [&](double squared_distance, std::size_t point) {
+      function(squared_distance, indices_[point]);
+    };
+    BallVisitor<decltype(visit_index)> visitor(radius * radius, visit_index);
     tree_.findNeighbors(visitor, centre.data(), nanoflann::SearchParams());
   }
 
@@ -71,17 +86,19 @@ class KdtreeRegionGrowing::Neighbours {
   };
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor>,
                                                    Adaptor, 3, std::size_t>;
-  Adaptor points_;
-  Tree tree_;
+  std::vector<Eigen::Vector3d> points_;  ///< [m]
+  std::vector<std::size_t> indices_;     ///< of these among all points
+  Adaptor adaptor_{points_};
+  Tree tree_{3, adaptor_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)};
 };
 
-KdtreeRegionGrowing::KdtreeRegionGrowing() = default;
+KdtreeRegionGrowing::KdtreeRegionGrowing()
+    : all_(std::make_unique<Neighbours>()), untested_(std::make_unique<Neighbours>()) {}
 KdtreeRegionGrowing::~KdtreeRegionGrowing() = default;
 
 void KdtreeRegionGrowing::setPoints(const std::vector<Eigen::Vector3d>& points) {
-  neighbours_.reset();  // refers to the old points
   points_ = points;
-  neighbours_ = std::make_unique<Neighbours>(points_);
+  all_->build(points_, [](std::size_t) { return true; });
 }
 
 const KdtreeRegionGrowing::Region& KdtreeRegionGrowing::grow(
@@ -92,35 +109,67 @@ const KdtreeRegionGrowing::Region& KdtreeRegionGrowing::grow(
   effort_ = Effort();
   key_.assign(points_.size(), std::numeric_limits<double>::infinity());
   queue_.clear();
+  deferred_.clear();
+  squared_horizon_ = std::numeric_limits<double>::infinity();
+  searched_ = all_.get();
 
   for (const std::size_t seed : seeds) key_[seed] = kTested;
   for (const std::size_t seed : seeds) join(seed, thresholds);
   const std::optional<PlaneFit> fit = region_.moments.fit();
   if (!fit) return region_;
   fit_ = *fit;
-  while (!queue_.empty()) {
+  while (true) {
+    if (!nearestIsCertain()) searchWhatWasDeferred(thresholds);
+    if (queue_.empty()) return region_;
     const Candidate nearest = pop();
     // A candidate that came closer while it waited stands in the queue twice.
     if (nearest.squared_distance != key_[nearest.point]) continue;
     key_[nearest.point] = kTested;
     if (test(nearest.point, thresholds)) join(nearest.point, thresholds);
   }
-  return region_;
 }
 
-/// Adds a point to the region, and the points about it to the candidates.
+/// Adds a point to the region, and the points near it to the candidates. The rest of its ball can
+/// wait: by the time it matters, most of the points in it will have been tested from nearer by.
 void KdtreeRegionGrowing::join(std::size_t point, const GrowthThresholds& thresholds) {
   const Eigen::Vector3d& r = points_[point];
   const double epsilon = thresholds.epsilon.at(r.z(), thresholds.noise);
   sum_epsilon2_ += epsilon * epsilon;
   region_.moments.add(r);  // Eq. 10
   region_.sequence.push_back(point);
-  const double delta = thresholds.delta.at(r.z(), thresholds.noise);
-  neighbours_->visit(r, delta, [&](double squared_distance, std::size_t neighbour) {
+  const double near = kNearShare * thresholds.delta.at(r.z(), thresholds.noise);
+  offerNeighbours(point, near);
+  deferred_.push_back(point);
+  squared_horizon_ = std::min(squared_horizon_, near * near);
+}
+
+/// Makes candidates of the points closer than `radius` to a point of the region.
+void KdtreeRegionGrowing::offerNeighbours(std::size_t point, double radius) {
+  searched_->visit(points_[point], radius, [&](double squared_distance, std::size_t neighbour) {
     if (squared_distance >= key_[neighbour]) return;
     key_[neighbour] = squared_distance;
     push({squared_distance, neighbour});
   });
+}
+
+/// @return whether no ball that was searched in part only can hold a nearer candidate than the
+/// queue does.
+bool KdtreeRegionGrowing::nearestIsCertain() const {
+  return deferred_.empty() ||
+         (!queue_.empty() && queue_.front().squared_distance < squared_horizon_);
+}
+
+void KdtreeRegionGrowing::searchWhatWasDeferred(const GrowthThresholds& thresholds) {
+  const std::size_t left = points_.size() - effort_.tests;
+  if (kPointsPerSearch * deferred_.size() > left) {
+    untested_->build(points_, [this](std::size_t point) { return key_[point] != kTested; });
+    searched_ = untested_.get();
+  }
+  for (const std::size_t point : deferred_) {
+    offerNeighbours(point, thresholds.delta.at(points_[point].z(), thresholds.noise));
+  }
+  deferred_.clear();
+  squared_horizon_ = std::numeric_limits<double>::infinity();
 }
 
 /// @return whether the point may join: both tests of Algorithm 1, against the plane refitted with

@@ -19,9 +19,11 @@ InputKind readInputKind(const ros::NodeHandle& node) {
 }  // namespace
 
 PlaneDetectionNodelet::~PlaneDetectionNodelet() {
-  const boost::lock_guard<boost::recursive_mutex> lock(mutex_);
-  reconfigure_.reset();
+  // Each of these waits for its running callback, which may be waiting for the mutex: it must not
+  // be held here. Outputs first, or else a new listener would subscribe the inputs again.
+  outputs_.shutdown();
   if (inputs_) inputs_->unsubscribe();
+  reconfigure_.reset();
 }
 
 void PlaneDetectionNodelet::onInit() {

@@ -35,6 +35,13 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
   overlay_ = transport.advertise(topics::kOverlay, kQueue, image_changed, image_changed);
 }
 
+void DetectionOutputs::shutdown() {
+  for (ros::Publisher* publisher : {&plane_, &coefficients_, &obstacles_, &ground_}) {
+    publisher->shutdown();
+  }
+  for (image_transport::Publisher* publisher : {&mask_, &overlay_}) publisher->shutdown();
+}
+
 bool DetectionOutputs::anybodyListens() const {
   return plane_.getNumSubscribers() + coefficients_.getNumSubscribers() +
              obstacles_.getNumSubscribers() + ground_.getNumSubscribers() +

@@ -22,6 +22,9 @@ class DetectionOutputs {
   /// @param listeners_changed called whenever somebody begins or ends to listen to any of them.
   void advertise(ros::NodeHandle& node, const std::function<void()>& listeners_changed);
 
+  /// Ends all topics; waits for a running `listeners_changed`.
+  void shutdown();
+
   bool anybodyListens() const;
 
   /// @param processing_time [s] of the detection alone.

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <boost/timer/progress_display.hpp>
 #include <chrono>
 #include <iostream>
@@ -14,6 +13,7 @@
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "inputs.h"
 #include "result_writer.h"
+#include "tool_main.h"
 #include "yaml_files.h"
 
 namespace dominant_plane_detection {
@@ -182,11 +182,6 @@ int main(int argc, char** argv) {
   CLI::App app(dominant_plane_detection::kDescription, "detect_planes");
   dominant_plane_detection::Options options;
   dominant_plane_detection::declare(app, options);
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return dominant_plane_detection::run(options);
-  } catch (const std::exception& error) {
-    std::cerr << "detect_planes: " << error.what() << '\n';
-    return 1;
-  }
+  return dominant_plane_detection::runTool(app, argc, argv,
+                                           [&] { return dominant_plane_detection::run(options); });
 }

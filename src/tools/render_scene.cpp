@@ -2,13 +2,13 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <boost/timer/progress_display.hpp>
 #include <iostream>
 #include <optional>
 
 #include "recording_writer.h"
 #include "synthetic/scene.h"
+#include "tool_main.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -77,11 +77,6 @@ int main(int argc, char** argv) {
   CLI::App app(dominant_plane_detection::kDescription, "render_scene");
   dominant_plane_detection::Options options;
   dominant_plane_detection::declare(app, options);
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return dominant_plane_detection::run(options);
-  } catch (const std::exception& error) {
-    std::cerr << "render_scene: " << error.what() << '\n';
-    return 1;
-  }
+  return dominant_plane_detection::runTool(app, argc, argv,
+                                           [&] { return dominant_plane_detection::run(options); });
 }

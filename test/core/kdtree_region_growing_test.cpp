@@ -156,6 +156,36 @@ TEST(KdtreeRegionGrowing, MomentsAreThoseOfTheSequence) {
   EXPECT_EQ(region.moments.scatter(), moments.scatter());
 }
 
+/// Three dense patches of a floor, 4 and 12 cm apart, with points 1 cm apart and some noise.
+Points patches() {
+  std::mt19937 generator(1);
+  std::normal_distribution<double> noise(0.0, 0.001);
+  Points points;
+  for (const double left : {0.0, 0.13, 0.34}) {
+    for (int v = 0; v < 10; ++v) {
+      for (int u = 0; u < 10; ++u) {
+        points.emplace_back(left + 0.01 * u + noise(generator), 1.0 + noise(generator),
+                            1.0 + 0.01 * v + noise(generator));
+      }
+    }
+  }
+  return points;
+}
+
+TEST(KdtreeRegionGrowing, CrossesGapsThatAreNarrowerThanDelta) {
+  const Points points = patches();
+  const Seeds seeds{0, 1, 10};
+  KdtreeRegionGrowing growing;
+  growing.setPoints(points);
+  // In [m], and the patches that are reached; the last is reached from the second alone.
+  for (const auto& [delta, reached] : {std::pair(0.03, 1U), {0.06, 2U}, {0.15, 3U}}) {
+    const GrowthThresholds thresholds{NoiseModel(), {delta, 0.0}, {0.005, 0.0}, {0.01, 0.0}};
+    const std::vector<std::size_t>& sequence = growing.grow(seeds, thresholds).sequence;
+    EXPECT_EQ(sequence.size(), 100U * reached) << "delta " << delta;
+    EXPECT_EQ(sequence, growNaively(points, seeds, thresholds)) << "delta " << delta;
+  }
+}
+
 TEST(KdtreeRegionGrowing, FewDecompositionsOnALargeNoisyPlane) {
   std::mt19937 generator(1);
   std::normal_distribution<double> noise(0.0, 0.002);
@@ -191,6 +221,9 @@ TEST(KdtreeRegionGrowing, DegenerateInputsGiveTheSeeds) {
   four.emplace_back(0.0, 1.0, 3.0);  // farther than delta
   growing.setPoints(four);
   EXPECT_EQ(growing.grow({0, 1, 2}, wide).sequence.size(), 3U);
+  GrowthThresholds no_reach = wide;
+  no_reach.delta.offset = 0.0;
+  EXPECT_EQ(growing.grow({0, 1, 3}, no_reach).sequence.size(), 3U);
 }
 
 }  // namespace

@@ -114,10 +114,3 @@ TEST(RobotLab, EveryImageGetsItsPlaneAndItIsRight) {
 
 }  // namespace
 }  // namespace dominant_plane_detection
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "robot_lab_rostest");
-  ros::NodeHandle node;  // keeps ROS up between the tests
-  return RUN_ALL_TESTS();
-}

@@ -42,10 +42,3 @@ TEST(SyntheticBag, ThePlaneIsTheScenesAllAlongTheDrive) {
 
 }  // namespace
 }  // namespace dominant_plane_detection
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "synthetic_bag_rostest");
-  ros::NodeHandle node;  // keeps ROS up between the tests
-  return RUN_ALL_TESTS();
-}

@@ -1,0 +1,64 @@
+// The nodelet's parameters: from the parameter server and through dynamic_reconfigure.
+
+#include <dynamic_reconfigure/Reconfigure.h>
+
+#include <limits>
+
+#include "dominant_plane_detection/parameters.h"
+#include "nodelet_fixture.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+class Reconfigure : public Nodelet {
+ protected:
+  /// @return the configuration that the node has afterwards.
+  dynamic_reconfigure::Config set(const std::string& name, double value) {
+    dynamic_reconfigure::ReconfigureRequest request;
+    dynamic_reconfigure::ReconfigureResponse response;
+    dynamic_reconfigure::DoubleParameter parameter;
+    parameter.name = name;
+    parameter.value = value;
+    request.config.doubles.push_back(parameter);
+    EXPECT_TRUE(ros::service::call("/plane_detection/set_parameters", request, response));
+    return response.config;
+  }
+  static double valueOf(const dynamic_reconfigure::Config& config, const std::string& name) {
+    for (const auto& parameter : config.doubles) {
+      if (parameter.name == name) return parameter.value;
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+TEST_F(Reconfigure, StartsFromTheParameterServerWithoutWhatWasWrong) {
+  ASSERT_TRUE(ros::service::waitForService("/plane_detection/set_parameters", 20000));
+  double range_max = 0.0;
+  int seeds = 0;
+  std::string algorithm;
+  ASSERT_TRUE(node_.getParam("/plane_detection/range_max", range_max));
+  ASSERT_TRUE(node_.getParam("/plane_detection/seeds", seeds));
+  ASSERT_TRUE(node_.getParam("/plane_detection/algorithm", algorithm));
+  EXPECT_EQ(range_max, 3.9);
+  EXPECT_EQ(seeds, Parameters().seeds);
+  EXPECT_EQ(algorithm, "grid");
+}
+
+TEST_F(Reconfigure, TakesEffectAndRefusesCombinationsThatCannotBe) {
+  Listener<DominantPlane> planes(node_, "/plane_detection/plane");
+  ASSERT_TRUE(waitForSubscription());
+  const auto far = detect(planes, image_);
+  expectTruth(far);
+  EXPECT_EQ(valueOf(set("range_max", 1.4), "range_max"), 1.4);
+  const auto near = detect(planes, image_);
+  expectTruth(near);
+  EXPECT_LT(near->inliers, far->inliers * 3 / 4);
+  // Beyond range_max: refused, and the old values go back to whoever asked.
+  EXPECT_EQ(valueOf(set("range_min", 2.0), "range_min"), 0.5);
+  EXPECT_EQ(detect(planes, image_)->inliers, near->inliers);
+  EXPECT_EQ(valueOf(set("range_max", 3.9), "range_max"), 3.9);
+  EXPECT_EQ(detect(planes, image_)->inliers, far->inliers);
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection
