@@ -2,10 +2,12 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
 
@@ -81,10 +83,13 @@ class TableReporter : public benchmark::ConsoleReporter {
     }
   }
   void Finalize() override {
-    for (const auto& [set, rows] : table_) {
+    for (auto& [set, rows] : table_) {
+      std::sort(rows.begin(), rows.end(),
+                [](const auto& a, const auto& b) { return a.second < b.second; });
       double baseline = 1.0;
       for (const auto& [detector, ms] : rows) baseline = detector == kBaseline ? ms : baseline;
-      std::printf("\n%s\n  %-42s %10s %10s\n", set.c_str(), "detector", "ms/image", "ratio");
+      std::printf("\n%s, single thread\n  %-42s %10s %10s\n", set.c_str(), "detector", "ms/image",
+                  "ratio");
       for (const auto& [detector, ms] : rows) {
         std::printf("  %-42s %10.3f %10.3f\n", detector.c_str(), ms, ms / baseline);
       }

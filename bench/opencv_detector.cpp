@@ -4,18 +4,6 @@
 #include "other_detectors.h"
 
 namespace dominant_plane_detection {
-namespace {
-
-int largestPlane(const cv::Mat& mask, std::size_t planes) {
-  int largest = 0;
-  for (std::size_t i = 0; i < planes; ++i) {
-    largest = std::max(largest, cv::countNonZero(mask == static_cast<int>(i)));
-  }
-  return largest;
-}
-
-}  // namespace
-
 OpenCvPlane::OpenCvPlane(const CameraModel& camera)
     : k_((cv::Mat_<float>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1)) {}
 
@@ -42,7 +30,7 @@ int OpenCvPlane::detect(const cv::Mat& depth) const {
   std::vector<cv::Vec4f> coefficients;
   cv::rgbd::RgbdPlane detector;
   detector(cloud, normals, mask, coefficients);
-  return largestPlane(mask, coefficients.size());
+  return static_cast<int>(coefficients.size());
 }
 
 }  // namespace dominant_plane_detection

@@ -7,13 +7,13 @@
 namespace dominant_plane_detection {
 
 /// Published plane detectors on a depth image in metres (32-bit, NaN for no reading), each with the
-/// defaults of its library. Return the number of pixels on the largest plane that they found.
+/// defaults of its library. What they return only keeps the compiler from leaving them out.
 
 /// OpenCV's RgbdPlane on points that are there already: the plane segmentation alone.
 class OpenCvPlane {
  public:
   OpenCvPlane(const CameraModel& camera);
-  /// Depth to points, not part of the time of `segment`.
+  /// Depth to points, for `segment`.
   cv::Mat points(const cv::Mat& depth) const;
   int segment(const cv::Mat& points) const;
   /// From depth to planes, with normals, as in OpenCV's sample.

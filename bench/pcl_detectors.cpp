@@ -5,6 +5,7 @@
 #include <pcl/segmentation/sac_segmentation.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "other_detectors.h"
 
@@ -48,10 +49,7 @@ int detectWithPclOrganized(const cv::Mat& depth, const CameraModel& camera) {
               Eigen::aligned_allocator<pcl::PlanarRegion<pcl::PointXYZ>>>
       regions;
   segmentation.segmentAndRefine(regions);
-  int largest = 0;
-  for (const auto& region : regions)
-    largest = std::max(largest, static_cast<int>(region.getCount()));
-  return largest;
+  return static_cast<int>(regions.size());
 }
 
 int detectWithPclRansac(const cv::Mat& depth, const CameraModel& camera) {
