@@ -25,8 +25,9 @@ struct Prior {
 
 /// Finds the dominant plane of depth images and labels every pixel by it.
 ///
-/// All memory belongs to the detector and is reused: after the first image of a size it allocates
-/// nothing. Not for concurrent use; threads take a detector each.
+/// All memory belongs to the detector and is reused: after the first image of a size, `grid`
+/// allocates nothing (`kdtree` builds its trees anew). Not for concurrent use; threads take a
+/// detector each.
 class DominantPlaneDetector {
  public:
   /// @throw std::invalid_argument that lists every value that cannot be used.

@@ -35,10 +35,18 @@ class GridRegionGrowing {
   /// @return [px] points in the tiles that are available.
   std::size_t availablePoints() const { return available_points_; }
 
-  /// Grows a region from a tile and those about it until there is nothing left to join, or until
-  /// its plane has settled: what more would join then is what `refine` takes.
-  /// @return nothing where the tiles about the seed are no plane; the seed is claimed then.
-  std::optional<Region> grow(std::size_t seed);
+  /// Starts a region from a tile and those about it, and claims the tile.
+  /// @return the region's first plane; nothing where these tiles are no plane.
+  std::optional<HessePlane> startRegion(std::size_t seed);
+
+  /// Claims the tiles that the last region was started from.
+  void claimStart();
+
+  /// Grows the region that was started until there is nothing left to join, or until its plane has
+  /// settled: what more would join then is what `refine` takes. Grows over tiles of earlier regions
+  /// as well, and claims its own.
+  /// @pre the last `startRegion` gave a plane.
+  Region grow();
 
   /// Refits a plane to all tiles on it, wherever they are in the image, and claims them: the pieces
   /// that obstacles cut off join, and what the growing picked up while its plane was poor leaves.
@@ -60,7 +68,7 @@ class GridRegionGrowing {
   bool close(std::size_t tile, std::size_t neighbour) const;
   void claim(std::size_t tile);
   void claimTilesOnPlane();
-  bool startRegion(std::size_t seed);
+  bool fitSeed(std::size_t seed);
   bool tryToJoin(std::size_t tile);
   void join(std::size_t tile);
   bool refit();

@@ -151,7 +151,7 @@ bool GridRegionGrowing::settled(const HessePlane& before) const {
 
 /// The region's first plane: a tile is too small to give one that holds far beyond it, the nine
 /// tiles about the seed are ten times better. Those that lie on something else are left out once.
-bool GridRegionGrowing::startRegion(std::size_t seed) {
+bool GridRegionGrowing::fitSeed(std::size_t seed) {
   const auto begin = [&] {
     ++growth_;
     region_.clear();
@@ -195,9 +195,17 @@ bool GridRegionGrowing::tryToJoin(std::size_t tile) {
          fit->mean_square_error * with_tile.count() < sum_limit;
 }
 
-std::optional<GridRegionGrowing::Region> GridRegionGrowing::grow(std::size_t seed) {
+std::optional<HessePlane> GridRegionGrowing::startRegion(std::size_t seed) {
   claim(seed);
-  if (!usable(seed) || !startRegion(seed)) return std::nullopt;
+  if (!usable(seed) || !fitSeed(seed)) return std::nullopt;
+  return fit_.plane;
+}
+
+void GridRegionGrowing::claimStart() {
+  for (const std::size_t tile : region_) claim(tile);
+}
+
+GridRegionGrowing::Region GridRegionGrowing::grow() {
   // First come, first served: rings about the seed, as good as "nearest first" on a grid.
   for (std::size_t i = 0; i < region_.size(); ++i) {
     const std::size_t from = region_[i];

@@ -32,6 +32,14 @@ class GridSearch {
                   PlaneSelection& selection);
 
  private:
+  /// Which seeds regions are grown from.
+  enum class Seeds {
+    kPromising,  ///< those whose tiles are not clearly too tilted to be ground
+    kAll,
+  };
+  std::size_t search(const TileMoments& tiles, const Parameters& parameters, Seeds seeds,
+                     PlaneSelection& selection);
+
   GridRegionGrowing growing_;
   RandomDraw draw_;
 };

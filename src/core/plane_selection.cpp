@@ -17,6 +17,12 @@ void PlaneSelection::consider(const HessePlane& plane, std::size_t points) {
   }
 }
 
+bool PlaneSelection::clearlyTooTilted(const HessePlane& plane) const {
+  // Twenty degrees; the normal of nine tiles is good to a few at the end of the range.
+  constexpr double kMargin = 0.35;  // [rad]
+  return tilt(plane) > limits_.max_tilt + kMargin;
+}
+
 State PlaneSelection::checkPose(const HessePlane& plane) const {
   if (tilt(plane) > limits_.max_tilt) return State::kTooTilted;
   if (plane.distance < limits_.min_height || plane.distance > limits_.max_height) {

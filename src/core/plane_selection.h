@@ -29,6 +29,10 @@ class PlaneSelection {
   /// @param points [px] that lie on the plane.
   void consider(const HessePlane& plane, std::size_t points);
 
+  /// @param plane of a few tiles, not yet grown.
+  /// @return whether it is tilted by so much more than allowed that growing cannot make it right.
+  bool clearlyTooTilted(const HessePlane& plane) const;
+
   bool found() const { return best_.points > 0; }
   const HessePlane& plane() const { return best_.plane; }
   std::size_t points() const { return best_.points; }  ///< [px] 0 when nothing was found

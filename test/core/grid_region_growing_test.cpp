@@ -46,17 +46,19 @@ class GridRegionGrowingTest : public testing::Test {
 
 TEST_F(GridRegionGrowingTest, GrowsAPlaneFromASeedAndRefinesItOverObstacles) {
   look(cutFloor(), 1.425e-3);
-  const auto region = growing_.grow(tileAt(320, 440));
-  ASSERT_TRUE(region);
-  expectTruth(region->plane, 0.01, 0.01);
-  const auto refined = growing_.refine(region->plane);
+  const auto first = growing_.startRegion(tileAt(320, 440));
+  ASSERT_TRUE(first);
+  expectTruth(*first, 0.1, 0.1);
+  const GridRegionGrowing::Region region = growing_.grow();
+  expectTruth(region.plane, 0.01, 0.01);
+  const auto refined = growing_.refine(region.plane);
   ASSERT_TRUE(refined);
   expectTruth(refined->plane, 0.0005, 0.0005);
   // Both pieces of the floor are claimed, the box between them is not.
   EXPECT_FALSE(growing_.available(tileAt(320, 440)));
   EXPECT_FALSE(growing_.available(tileAt(320, 200)));
   EXPECT_TRUE(growing_.available(tileAt(320, 288)));
-  EXPECT_GT(refined->points, region->points);
+  EXPECT_GT(refined->points, region.points);
 }
 
 TEST_F(GridRegionGrowingTest, RefinementIsTheWeightedFitOfTheTilesOnThePlane) {
@@ -85,7 +87,7 @@ TEST_F(GridRegionGrowingTest, SeedsThatLieOnNoPlaneGrowNothing) {
   for (float& z : chaos.pixels) z = 0.6F + 0.001F * static_cast<float>(generator() % 3000);
   look(chaos, 0.0);
   const std::size_t before = growing_.availablePoints();
-  EXPECT_FALSE(growing_.grow(tileAt(320, 240)));
+  EXPECT_FALSE(growing_.startRegion(tileAt(320, 240)));
   EXPECT_FALSE(growing_.available(tileAt(320, 240)));  // not drawn again
   EXPECT_EQ(growing_.availablePoints(), before - 64);
 }
@@ -94,7 +96,7 @@ TEST_F(GridRegionGrowingTest, EmptyTilesAndPlanesThatNothingLiesOn) {
   look(OwnedDepth<float>(640, 480), 0.0);
   EXPECT_EQ(growing_.availablePoints(), 0U);
   EXPECT_FALSE(growing_.available(0));
-  EXPECT_FALSE(growing_.grow(0));
+  EXPECT_FALSE(growing_.startRegion(0));
   EXPECT_FALSE(growing_.refine(HessePlane{{0.0, 1.0, 0.0}, 1.0}));
   // Two tiles side by side: a line, and no plane.
   OwnedDepth<float> two(640, 480);
@@ -103,7 +105,7 @@ TEST_F(GridRegionGrowingTest, EmptyTilesAndPlanesThatNothingLiesOn) {
   }
   look(two, 0.0);
   EXPECT_EQ(growing_.availablePoints(), 128U);
-  EXPECT_FALSE(growing_.grow(tileAt(320, 240)));
+  EXPECT_FALSE(growing_.startRegion(tileAt(320, 240)));
 }
 
 TEST_F(GridRegionGrowingTest, DoesNotGrowOverACrease) {
@@ -111,9 +113,8 @@ TEST_F(GridRegionGrowingTest, DoesNotGrowOverACrease) {
   OwnedDepth<float> depth = planeDepth(testCamera(), kUp, kHeight);
   for (float& z : depth.pixels) z = z > 0.0F ? std::min(z, 2.0F) : 2.0F;
   look(depth, 1.425e-3);
-  const auto region = growing_.grow(tileAt(320, 440));
-  ASSERT_TRUE(region);
-  const auto refined = growing_.refine(region->plane);
+  ASSERT_TRUE(growing_.startRegion(tileAt(320, 440)));
+  const auto refined = growing_.refine(growing_.grow().plane);
   ASSERT_TRUE(refined);
   expectTruth(refined->plane, 0.002, 0.002);
   EXPECT_TRUE(growing_.available(tileAt(320, 40)));
