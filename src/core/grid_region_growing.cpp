@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -163,17 +164,22 @@ bool GridRegionGrowing::fitSeed(std::size_t seed) {
   forEachNeighbour(seed, tiles_->columns, tiles_->rows, [&](std::size_t tile) {
     if (usable(tile) && close(tile, seed)) join(tile);
   });
-  if (!refit()) return false;
-  const std::vector<std::size_t>::size_type tried = region_.size();
-  std::size_t start[9];
-  std::copy(region_.begin(), region_.end(), start);
-  const HessePlane first = fit_.plane;
-  begin();
-  for (std::size_t i = 0; i < tried; ++i) {
-    if (within(height(start[i], first), static_cast<double>(gamma_[start[i]]))) join(start[i]);
+  // Too few to start from, whatever they lie on.
+  if (region_.size() < kMinStart || !refit()) return false;
+  const auto on_plane = [&](std::size_t tile) {
+    return within(height(tile, fit_.plane), static_cast<double>(gamma_[tile]));
+  };
+  if (!on_plane(seed)) return false;
+  std::array<std::size_t, 9> kept;
+  const auto kept_end = std::copy_if(region_.begin(), region_.end(), kept.begin(), on_plane);
+  const auto kept_count = static_cast<std::size_t>(kept_end - kept.begin());
+  if (kept_count < kMinStart) return false;
+  if (kept_count < region_.size()) {
+    begin();
+    std::for_each(kept.begin(), kept_end, [&](std::size_t tile) { join(tile); });
+    if (!refit()) return false;
   }
-  return region_.size() >= kMinStart && joined_[seed] == growth_ && refit() &&
-         fit_.mean_square_error * moments_.count() < sum_epsilon2_;
+  return fit_.mean_square_error * moments_.count() < sum_epsilon2_;
 }
 
 bool GridRegionGrowing::tryToJoin(std::size_t tile) {
