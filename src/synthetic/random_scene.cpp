@@ -87,7 +87,7 @@ Scene draw(std::uint32_t seed, Generator& random) {
 }
 
 bool showsEnoughFloor(const Scene& scene) {
-  const Rendering rendering = Renderer(scene).render(scene.path.keys.front().pose(), false);
+  const Rendering rendering = Renderer(scene).render(scene.path.keys.front().pose(), {});
   std::size_t floor = 0;
   for (std::size_t i = 0; i < rendering.depth.size(); ++i) {
     floor += rendering.labels[i] == static_cast<std::uint8_t>(Label::kGround) &&

@@ -62,7 +62,7 @@ class Renderer::Implementation {
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
-  Rendering render(const Eigen::Isometry3d& pose, bool shadows) const {
+  Rendering render(const Eigen::Isometry3d& pose, const Layers& layers) const {
     const CameraModel& camera = rays_.camera();
     Rendering rendering;
     rendering.width = camera.width;
@@ -73,59 +73,94 @@ class Renderer::Implementation {
     rendering.depth.resize(pixels);
     rendering.cosine.resize(pixels);
     rendering.labels.resize(pixels);
-    rendering.colour.resize(3 * pixels);
-    if (shadows) rendering.shadow.resize(pixels);
+    if (layers.colour) rendering.colour.resize(3 * pixels);
+    if (layers.shadow) rendering.shadow.resize(pixels);
     // The plane z = 0, seen from the camera.
     rendering.normal = pose.linear().transpose() * Eigen::Vector3d::UnitZ();
     rendering.distance = pose.translation().z();
 
-    for (int v = 0; v < camera.height; ++v) renderRow(pose.cast<float>(), v, shadows, rendering);
+    Row row(static_cast<std::size_t>(camera.width));
+    for (int v = 0; v < camera.height; ++v) {
+      castRow(pose.cast<float>(), v, row);
+      shadeRow(pose.cast<float>(), v, row, rendering);
+      if (layers.shadow) shadowRow(pose.cast<float>(), v, row, rendering);
+    }
     return rendering;
   }
 
  private:
-  void renderRow(const Eigen::Isometry3f& pose, int v, bool shadows, Rendering& rendering) const {
-    for (int u = 0; u < rendering.width; ++u) {
-      const Eigen::Vector3f ray = rays_.ray(u, v);
-      if (std::isnan(ray.x())) continue;
-      // The direction's z is 1 in the optical frame: the ray's parameter is the depth.
-      const Eigen::Vector3f direction = pose.linear() * ray;
-      RTCRayHit hit{};
-      hit.ray = makeRay(pose.translation(), direction, std::numeric_limits<float>::infinity());
-      hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-      rtcIntersect1(scene_, &context, &hit);
-      if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
+  /// Rays of an image row, cast together: Embree is several times faster at neighbours in a bunch.
+  struct Row {
+    explicit Row(std::size_t size) : hits(size), shadow_rays(size), surface(size) {}
+    std::vector<RTCRayHit> hits;
+    std::vector<RTCRay> shadow_rays;
+    std::vector<Eigen::Vector3f> surface;  ///< [m] where rays to the projector start
+  };
 
-      const std::size_t i =
-          static_cast<std::size_t>(v) * static_cast<std::size_t>(rendering.width) +
-          static_cast<std::size_t>(u);
+  static RTCIntersectContext coherentContext() {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    return context;
+  }
+
+  static bool hasHit(const RTCRayHit& hit) { return hit.hit.geomID != RTC_INVALID_GEOMETRY_ID; }
+
+  void castRow(const Eigen::Isometry3f& pose, int v, Row& row) const {
+    int u = 0;
+    for (RTCRayHit& hit : row.hits) {
+      const Eigen::Vector3f ray = rays_.ray(u++, v);
+      // The direction's z is 1 in the optical frame: the ray's parameter is the depth. Where the
+      // lens sees nothing the ray is switched off: Embree skips what ends before it begins.
+      const bool usable = !std::isnan(ray.x());
+      const Eigen::Vector3f direction = pose.linear() * (usable ? ray : Eigen::Vector3f::UnitZ());
+      hit.ray = makeRay(pose.translation(), direction,
+                        usable ? std::numeric_limits<float>::infinity() : -1.0F);
+      hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    }
+    RTCIntersectContext context = coherentContext();
+    rtcIntersect1M(scene_, &context, row.hits.data(), static_cast<unsigned>(row.hits.size()),
+                   sizeof(RTCRayHit));
+  }
+
+  void shadeRow(const Eigen::Isometry3f& pose, int v, Row& row, Rendering& rendering) const {
+    std::size_t i = static_cast<std::size_t>(v) * row.hits.size();
+    for (std::size_t u = 0; u < row.hits.size(); ++u, ++i) {
+      const RTCRayHit& hit = row.hits[u];
+      if (!hasHit(hit)) continue;
       const SceneObject& object = objects_[hit.hit.geomID];
+      const Eigen::Vector3f direction(hit.ray.dir_x, hit.ray.dir_y, hit.ray.dir_z);
       const Eigen::Vector3f point = pose.translation() + hit.ray.tfar * direction;
       Eigen::Vector3f normal(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z);
-      normal.normalize();
-      if (normal.dot(direction) > 0.0F) normal = -normal;
+      normal /= std::copysign(normal.norm(), -normal.dot(direction));
       rendering.depth[i] = hit.ray.tfar;
-      rendering.cosine[i] = -normal.dot(direction.normalized());
+      rendering.cosine[i] = -normal.dot(direction) / direction.norm();
       rendering.labels[i] = static_cast<std::uint8_t>(label(object, point));
-      paint(object, point, normal, rendering.cosine[i], &rendering.colour[3 * i]);
-      if (shadows) {
-        // The projector stands to the right of the camera, as a Kinect v1 has it.
-        const auto baseline = static_cast<float>(SensorNoise::kBaseline);
-        const Eigen::Vector3f projector = pose * Eigen::Vector3f(baseline, 0.0F, 0.0F);
-        rendering.shadow[i] = occluded(point + kSurfaceOffset * normal, projector) ? 1 : 0;
+      if (!rendering.colour.empty()) {
+        paint(object, point, normal, rendering.cosine[i], &rendering.colour[3 * i]);
       }
+      row.surface[u] = point + kSurfaceOffset * normal;
     }
   }
 
-  bool occluded(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const {
-    RTCRay ray = makeRay(from, to - from, 1.0F);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(scene_, &context, &ray);
-    return ray.tfar < 0.0F;  // how Embree says yes
+  void shadowRow(const Eigen::Isometry3f& pose, int v, Row& row, Rendering& rendering) const {
+    // The projector stands to the right of the camera, as a Kinect v1 has it.
+    const auto baseline = static_cast<float>(SensorNoise::kBaseline);
+    const Eigen::Vector3f projector = pose * Eigen::Vector3f(baseline, 0.0F, 0.0F);
+    for (std::size_t u = 0; u < row.hits.size(); ++u) {
+      // From the projector: rays with a common origin are faster.
+      const bool seen = hasHit(row.hits[u]);
+      row.shadow_rays[u] =
+          makeRay(projector, seen ? row.surface[u] - projector : projector, seen ? 1.0F : -1.0F);
+    }
+    RTCIntersectContext context = coherentContext();
+    rtcOccluded1M(scene_, &context, row.shadow_rays.data(),
+                  static_cast<unsigned>(row.shadow_rays.size()), sizeof(RTCRay));
+    const std::size_t begin = static_cast<std::size_t>(v) * row.hits.size();
+    for (std::size_t u = 0; u < row.hits.size(); ++u) {
+      // A negative end is how Embree says occluded.
+      rendering.shadow[begin + u] = hasHit(row.hits[u]) && row.shadow_rays[u].tfar < 0.0F ? 1 : 0;
+    }
   }
 
   static Label label(const SceneObject& object, const Eigen::Vector3f& point) {
@@ -161,8 +196,8 @@ class Renderer::Implementation {
 Renderer::Renderer(const Scene& scene) : implementation_(std::make_unique<Implementation>(scene)) {}
 Renderer::~Renderer() = default;
 
-Rendering Renderer::render(const Eigen::Isometry3d& pose, bool shadows) const {
-  return implementation_->render(pose, shadows);
+Rendering Renderer::render(const Eigen::Isometry3d& pose, const Layers& layers) const {
+  return implementation_->render(pose, layers);
 }
 
 }  // namespace dominant_plane_detection

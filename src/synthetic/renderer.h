@@ -20,11 +20,17 @@ struct Rendering {
   std::vector<std::uint8_t>
       shadow;  ///< 1 where the projector does not shine; empty if not asked for
   std::vector<std::uint8_t> labels;  ///< `Label`; kUnknown where nothing is seen
-  std::vector<std::uint8_t> colour;  ///< red, green, blue
+  std::vector<std::uint8_t> colour;  ///< red, green, blue; empty if not asked for
 
   /// The ground z = 0 in the optical frame: normal . r + distance = 0, towards the camera.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double distance = 0.0;  ///< [m]
+};
+
+/// What is rendered beside depth, incidence and labels.
+struct Layers {
+  bool shadow = false;
+  bool colour = false;
 };
 
 /// Casts rays into a scene (Embree: the ray casting library that Debian has).
@@ -35,8 +41,7 @@ class Renderer {
   ~Renderer();
 
   /// @param pose T_world_camera of the optical frame.
-  /// @param shadows whether to find out where the projector shines.
-  Rendering render(const Eigen::Isometry3d& pose, bool shadows) const;
+  Rendering render(const Eigen::Isometry3d& pose, const Layers& layers) const;
 
  private:
   class Implementation;

@@ -61,7 +61,7 @@ int run(const Options& options) {
     RecordedFrame frame;
     frame.number = i;
     frame.time = i / options.rate;
-    frame.rendering = renderer.render(scene.path.at(frame.time).pose(), noise.shadows);
+    frame.rendering = renderer.render(scene.path.at(frame.time).pose(), {noise.shadows, true});
     frame.depth = senseDepth(frame.rendering, noise, options.seed + i);
     writer->write(frame);
     if (progress) ++*progress;

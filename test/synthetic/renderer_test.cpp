@@ -45,7 +45,7 @@ float depthAt(const Rendering& rendering, int u, int v) {
 
 /// Depth of every pixel against the analytic plane of the pose.
 void expectPlane(const Scene& scene, const KeyPose& key) {
-  const Rendering rendering = Renderer(scene).render(key.pose(), false);
+  const Rendering rendering = Renderer(scene).render(key.pose(), {});
   RayTable rays;
   rays.build(scene.camera);
   std::size_t seen = 0;
@@ -73,17 +73,17 @@ TEST(Renderer, FloorIsWhereThePoseSays) {
 }
 
 TEST(Renderer, TruePlaneOfAPose) {
-  const Rendering level = Renderer(bareFloor()).render(keyPose(0.7, 0.0).pose(), false);
+  const Rendering level = Renderer(bareFloor()).render(keyPose(0.7, 0.0).pose(), {});
   EXPECT_LT((level.normal - Eigen::Vector3d(0.0, -1.0, 0.0)).norm(), 1e-12);
   EXPECT_NEAR(level.distance, 0.7, 1e-12);
-  const Rendering pitched = Renderer(bareFloor()).render(keyPose(0.7, 0.4).pose(), false);
+  const Rendering pitched = Renderer(bareFloor()).render(keyPose(0.7, 0.4).pose(), {});
   EXPECT_LT((pitched.normal - Eigen::Vector3d(0.0, -std::cos(0.4), -std::sin(0.4))).norm(), 1e-12);
 }
 
 TEST(Renderer, LabelsOfBoxAndHole) {
   Scene scene = bareFloor();
   addBox(scene, {0.3, 0.3, 0.2}, {1.5, 0.0, 0.0});
-  const Rendering box = Renderer(scene).render(keyPose(0.8, 0.5).pose(), false);
+  const Rendering box = Renderer(scene).render(keyPose(0.8, 0.5).pose(), {});
   EXPECT_EQ(labelAt(box, 320, 230), Label::kObstacle);
   EXPECT_EQ(labelAt(box, 320, 470), Label::kGround);
 
@@ -97,7 +97,7 @@ TEST(Renderer, LabelsOfBoxAndHole) {
   below.mesh = rectangleMesh(100.0, 100.0);
   below.mesh.transform(Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.3)));
   step.objects = {near, below};
-  const Rendering hole = Renderer(step).render(keyPose(0.8, 0.6).pose(), false);
+  const Rendering hole = Renderer(step).render(keyPose(0.8, 0.6).pose(), {});
   EXPECT_EQ(labelAt(hole, 320, 470), Label::kGround);
   EXPECT_EQ(labelAt(hole, 320, 100), Label::kDropOff);
 }
@@ -106,7 +106,7 @@ TEST(SensorNoise, StandardDeviationIsTheModels) {
   Scene wall;
   wall.camera = kinectCamera();
   addBox(wall, {0.1, 50.0, 50.0}, {3.05, 0.0, -25.0});
-  const Rendering rendering = Renderer(wall).render(keyPose(0.0, 0.0).pose(), false);
+  const Rendering rendering = Renderer(wall).render(keyPose(0.0, 0.0).pose(), {});
   SensorNoise noise = SensorNoise::none();
   noise.axial = true;
   const auto readings = senseDepth(rendering, noise, 1);
@@ -125,7 +125,7 @@ TEST(SensorNoise, StandardDeviationIsTheModels) {
 TEST(SensorNoise, QuantisationIsInDisparity) {
   SensorNoise noise = SensorNoise::none();
   const Scene scene = bareFloor();
-  const Rendering rendering = Renderer(scene).render(keyPose(0.8, 0.4).pose(), false);
+  const Rendering rendering = Renderer(scene).render(keyPose(0.8, 0.4).pose(), {});
   noise.quantise = true;
   const auto readings = senseDepth(rendering, noise, 1);
   const double scale = scene.camera.fx * SensorNoise::kBaseline / SensorNoise::kDisparityStep;
@@ -143,7 +143,7 @@ TEST(SensorNoise, ShadowFallsToTheLeftOfAnObject) {
   scene.camera = kinectCamera();
   addBox(scene, {0.1, 50.0, 50.0}, {3.05, 0.0, -25.0});  // wall 3 m away
   addBox(scene, {0.1, 0.4, 0.4}, {1.55, 0.0, -0.2});     // box 1.5 m away
-  const Rendering rendering = Renderer(scene).render(keyPose(0.0, 0.0).pose(), true);
+  const Rendering rendering = Renderer(scene).render(keyPose(0.0, 0.0).pose(), {true, true});
   SensorNoise noise = SensorNoise::none();
   noise.shadows = true;
   const auto readings = senseDepth(rendering, noise, 1);
@@ -157,7 +157,7 @@ TEST(SensorNoise, ShadowFallsToTheLeftOfAnObject) {
 }
 
 TEST(SensorNoise, RangeDropOutAndGrazingGapsLeaveNoReading) {
-  const Rendering rendering = Renderer(bareFloor()).render(keyPose(0.8, 0.3).pose(), false);
+  const Rendering rendering = Renderer(bareFloor()).render(keyPose(0.8, 0.3).pose(), {});
   SensorNoise noise = SensorNoise::none();
   noise.range_min = 1.5;
   noise.range_max = 3.0;
@@ -180,7 +180,7 @@ TEST(SensorNoise, RangeDropOutAndGrazingGapsLeaveNoReading) {
 }
 
 TEST(SensorNoise, SmoothErrorIsSmoothAndOfItsSize) {
-  const Rendering rendering = Renderer(bareFloor()).render(keyPose(1.0, 1.2).pose(), false);
+  const Rendering rendering = Renderer(bareFloor()).render(keyPose(1.0, 1.2).pose(), {});
   SensorNoise noise = SensorNoise::none();
   noise.correlated = 0.01;
   const auto readings = senseDepth(rendering, noise, 4);
@@ -199,7 +199,7 @@ TEST(SensorNoise, SmoothErrorIsSmoothAndOfItsSize) {
 }
 
 TEST(SensorNoise, SameNumberSameReadings) {
-  const Rendering rendering = Renderer(bareFloor()).render(keyPose(0.8, 0.3).pose(), true);
+  const Rendering rendering = Renderer(bareFloor()).render(keyPose(0.8, 0.3).pose(), {true, true});
   const SensorNoise noise;
   EXPECT_EQ(senseDepth(rendering, noise, 3), senseDepth(rendering, noise, 3));
   EXPECT_NE(senseDepth(rendering, noise, 3), senseDepth(rendering, noise, 4));

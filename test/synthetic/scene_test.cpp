@@ -14,7 +14,7 @@ namespace dominant_plane_detection {
 namespace {
 
 double groundShare(const Scene& scene, const KeyPose& key) {
-  const Rendering rendering = Renderer(scene).render(key.pose(), false);
+  const Rendering rendering = Renderer(scene).render(key.pose(), {});
   const auto ground = std::count(rendering.labels.begin(), rendering.labels.end(),
                                  static_cast<std::uint8_t>(Label::kGround));
   return static_cast<double>(ground) / static_cast<double>(rendering.labels.size());

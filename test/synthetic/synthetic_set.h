@@ -16,7 +16,8 @@ inline ReferenceSet loadRandomScenes(std::uint32_t count) {
   set.camera = kinectCamera();
   for (std::uint32_t seed = 1; seed <= count; ++seed) {
     const Scene scene = randomScene(seed);
-    const Rendering rendering = Renderer(scene).render(scene.path.keys.front().pose(), true);
+    const Rendering rendering =
+        Renderer(scene).render(scene.path.keys.front().pose(), {true, true});
     std::vector<std::uint16_t> readings = senseDepth(rendering, scene.noise, seed);
     ReferenceImage image;
     image.name = std::to_string(seed);
