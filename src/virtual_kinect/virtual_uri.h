@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+namespace dominant_plane_detection::virtual_kinect {
+
+constexpr const char* kScheme = "virtual://";
+
+/// What a URI `virtual://SCENE?name=value&...` asks for.
+struct VirtualUri {
+  std::string scene;            ///< file of the scene, absolute
+  std::string serial = "VK00";  ///< serial number of the device
+  bool noise = true;            ///< the scene's sensor noise, or none
+  double start = 0.0;           ///< [s] on the scene's camera path, at which it begins
+  double drift = 0.0;           ///< [-] by which the device's clock is fast
+  double unplug = -1.0;         ///< [s] after opening, < 0: never
+  double replug = -1.0;         ///< [s] after unplugging, < 0: never
+  double stall = -1.0;          ///< [s] after opening, at which streams fall silent, < 0: never
+};
+
+/// @param scenes folder in which a scene without a slash in its name is looked for; ".yaml" may be
+/// left out there.
+/// @throw std::invalid_argument for an unknown name or a value that is no number.
+VirtualUri parseUri(const std::string& uri, const std::string& scenes);
+
+}  // namespace dominant_plane_detection::virtual_kinect
