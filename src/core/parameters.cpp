@@ -1,37 +1,10 @@
 #include "dominant_plane_detection/parameters.h"
 
-#include <charconv>
-#include <cmath>
-#include <sstream>
-#include <stdexcept>
-#include <type_traits>
-
-#include "dominant_plane_detection/parameter_table.h"
+#include "parameter_text.h"
 
 namespace dominant_plane_detection {
-namespace {
 
-std::string sentence(const ParameterInfo& info, double value) {
-  std::ostringstream text;
-  text << info.name << ": expected " << info.min << " to " << info.max << " " << info.unit
-       << ", got " << value;
-  return text.str();
-}
-
-template <typename T>
-void parse(const ParameterInfo& info, const std::string& text, T& value) {
-  T parsed{};
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, parsed);
-  if (error != std::errc() || stop != end) {
-    throw std::invalid_argument(std::string(info.name) + ": expected " +
-                                (std::is_integral_v<T> ? "a whole number" : "a number") + " [" +
-                                info.unit + "], got '" + text + "'");
-  }
-  value = parsed;
-}
-
-void parse(const ParameterInfo& info, const std::string& text, Algorithm& value) {
+void parseValue(const ParameterInfo& info, const std::string& text, Algorithm& value) {
   if (text == "grid") {
     value = Algorithm::kGrid;
   } else if (text == "kdtree") {
@@ -42,17 +15,8 @@ void parse(const ParameterInfo& info, const std::string& text, Algorithm& value)
   }
 }
 
-}  // namespace
-
 std::vector<std::string> findErrors(const Parameters& p) {
-  std::vector<std::string> errors;
-  visitParameters(p, [&](const ParameterInfo& info, const auto& value) {
-    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
-      const double number = value;
-      // Written so that NaN is refused.
-      if (!(info.min <= number && number <= info.max)) errors.push_back(sentence(info, number));
-    }
-  });
+  std::vector<std::string> errors = findRangeErrors(p);
   const auto require_ascending = [&](const char* low_name, double low, const char* high_name,
                                      double high) {
     if (low < high) return;
@@ -70,17 +34,7 @@ std::vector<std::string> findErrors(const Parameters& p) {
 }
 
 void setParameter(Parameters& parameters, const std::string& name, const std::string& value) {
-  bool known = false;
-  std::string names;
-  visitParameters(parameters, [&](const ParameterInfo& info, auto& member) {
-    names += (names.empty() ? "" : ", ") + std::string(info.name);
-    if (name != info.name) return;
-    known = true;
-    parse(info, value, member);
-  });
-  if (!known) {
-    throw std::invalid_argument("there is no parameter '" + name + "'; there are " + names);
-  }
+  setByName(parameters, name, value);
 }
 
 }  // namespace dominant_plane_detection

@@ -38,7 +38,8 @@ void PlaneDetectionNodelet::start() {
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   // Somebody may connect before everything is in place, and has to wait until it is.
   const boost::lock_guard<boost::recursive_mutex> lock(mutex_);
-  detector_ = DominantPlaneDetector(loadParameters(private_node, {"input", "rectified"}));
+  detector_ = DominantPlaneDetector(loadParameters<Parameters, PlaneDetectionConfig>(private_node,
+                                                                     {"input", "rectified"}));
   inputs_ = std::make_unique<DetectionInputs>(
       getNodeHandle(), readInputKind(private_node), private_node.param("rectified", false),
       [this](const DetectionInputs::Frame& frame) { onFrame(frame); }, [this] { onPicture(); });
@@ -74,14 +75,14 @@ void PlaneDetectionNodelet::onPicture() {
 
 void PlaneDetectionNodelet::onReconfigure(PlaneDetectionConfig& config) {
   const boost::lock_guard<boost::recursive_mutex> lock(mutex_);
-  const Parameters parameters = fromConfig(config);
-  const std::string errors = describeErrors(parameters);
+  const Parameters parameters = fromConfig<Parameters>(config);
+  const std::string errors = joined(findErrors(parameters));
   if (errors.empty()) {
     detector_ = DominantPlaneDetector(parameters);
     return;
   }
   NODELET_ERROR_STREAM("Refused parameters, the old ones stay: " << errors);
-  config = toConfig(detector_.parameters());  // goes back to whoever asked
+  config = toConfig<PlaneDetectionConfig>(detector_.parameters());  // goes back to whoever asked
 }
 
 }  // namespace dominant_plane_detection

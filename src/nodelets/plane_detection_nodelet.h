@@ -10,7 +10,7 @@
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "ros/detection_inputs.h"
 #include "ros/detection_outputs.h"
-#include "ros/ros_parameters.h"
+#include "ros/detection_parameters.h"
 
 namespace dominant_plane_detection {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "dominant_plane_detection/parameter_table.h"
-#include "ros/ros_parameters.h"
+#include "ros/detection_parameters.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -82,7 +82,7 @@ TEST(ParameterAgreement, ConfigAndParametersConvertBothWays) {
   parameters.range_max = 3.25;
   parameters.seeds = 5;
   parameters.expected_up = {0.1, -0.2, 0.3};
-  const Parameters back = fromConfig(toConfig(parameters));
+  const Parameters back = fromConfig<Parameters>(toConfig<PlaneDetectionConfig>(parameters));
   EXPECT_EQ(back.algorithm, Algorithm::kKdtree);
   EXPECT_EQ(back.range_max, 3.25);
   EXPECT_EQ(back.seeds, 5);

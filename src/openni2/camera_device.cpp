@@ -1,0 +1,80 @@
+#include "openni2/camera_device.h"
+
+#include <OpenNI.h>
+
+#include <algorithm>
+
+namespace dominant_plane_detection {
+
+CameraDevice::CameraDevice(std::shared_ptr<OpenNi2Runtime> runtime, const std::string& uri,
+                           const FrameCallback& callback)
+    : runtime_(std::move(runtime)), device_(runtime_->open(uri)) {
+  const openni::DeviceInfo& info = device_->getDeviceInfo();
+  description_ = {info.getUri(), info.getVendor(), info.getName(), serialNumber(*device_)};
+  for (const StreamKind kind : kAllStreams) {
+    if (!SensorStream::isIn(*device_, kind)) continue;
+    streams_[static_cast<int>(kind)] = std::make_unique<SensorStream>(
+        *device_, kind, [kind, callback](const SensorFrame& frame) { callback(kind, frame); });
+  }
+}
+
+CameraDevice::~CameraDevice() {
+  for (auto& stream : streams_) stream.reset();
+  runtime_->close(std::move(device_));
+}
+
+bool CameraDevice::isRecording() const { return device_->isFile(); }
+
+bool CameraDevice::hasMode(StreamKind kind, const VideoMode& mode) const {
+  if (isRecording()) return true;  // it plays what it has
+  const std::vector<VideoMode> modes = stream(kind).modes();
+  return std::find(modes.begin(), modes.end(), mode) != modes.end();
+}
+
+bool CameraDevice::canRegister() const {
+  return device_->isImageRegistrationModeSupported(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR);
+}
+
+std::string CameraDevice::refusal(const CameraSettings& settings) const {
+  for (const StreamKind kind : kAllStreams) {
+    const VideoMode& mode = settings.mode(kind);
+    if (!has(kind) || hasMode(kind, mode)) continue;
+    return std::string(toString(kind)) + "_mode: the camera does not have " + toString(mode) +
+           ", but " + toString(stream(kind).modes());
+  }
+  if (settings.depth_registration && !canRegister()) {
+    return "depth_registration: the camera cannot register depth to colour";
+  }
+  return "";
+}
+
+CameraSettings CameraDevice::possible(CameraSettings settings) const {
+  for (const StreamKind kind : kAllStreams) {
+    if (has(kind) && !hasMode(kind, settings.mode(kind))) {
+      settings.mode(kind) = stream(kind).mode();
+    }
+  }
+  settings.depth_registration = settings.depth_registration && canRegister();
+  return settings;
+}
+
+void CameraDevice::apply(const CameraSettings& settings) {
+  const auto registration = settings.depth_registration
+                                ? openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR
+                                : openni::IMAGE_REGISTRATION_OFF;
+  if (device_->isImageRegistrationModeSupported(registration)) {
+    device_->setImageRegistrationMode(registration);
+  }
+  if (has(StreamKind::kColour)) {
+    stream(StreamKind::kColour).setAutomatic(settings.auto_exposure, settings.auto_white_balance);
+  }
+  openni::PlaybackControl* playback = device_->getPlaybackControl();
+  if (playback != nullptr) playback->setRepeatEnabled(settings.repeat);
+}
+
+void CameraDevice::start(StreamKind kind, const CameraSettings& settings) {
+  const VideoMode mode = isRecording() ? stream(kind).mode() : settings.mode(kind);
+  stream(kind).start(mode, kind == StreamKind::kDepth && settings.depth_registration);
+}
+
+}  // namespace dominant_plane_detection

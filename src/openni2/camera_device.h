@@ -1,0 +1,74 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "openni2/runtime.h"
+#include "openni2/sensor_stream.h"
+
+namespace dominant_plane_detection {
+
+/// What users choose about a camera.
+struct CameraSettings {
+  VideoMode depth_mode{640, 480, 30};
+  VideoMode rgb_mode{640, 480, 30};
+  VideoMode ir_mode{640, 480, 30};
+  bool depth_registration = false;  ///< depth as seen from the colour camera
+  bool auto_exposure = true;        ///< of the colour camera
+  bool auto_white_balance = true;   ///< of the colour camera
+  bool repeat = true;               ///< a recording begins again at its end
+
+  const VideoMode& mode(StreamKind kind) const {
+    if (kind == StreamKind::kDepth) return depth_mode;
+    return kind == StreamKind::kColour ? rgb_mode : ir_mode;
+  }
+  VideoMode& mode(StreamKind kind) {
+    return const_cast<VideoMode&>(std::as_const(*this).mode(kind));
+  }
+};
+
+/// A camera or a recording that is open, with those of the three streams that it has.
+class CameraDevice {
+ public:
+  using FrameCallback = std::function<void(StreamKind, const SensorFrame&)>;
+
+  /// @throw std::runtime_error with OpenNI2's reason.
+  CameraDevice(std::shared_ptr<OpenNi2Runtime> runtime, const std::string& uri,
+               const FrameCallback& callback);
+  /// Waits for running callbacks.
+  ~CameraDevice();
+  CameraDevice(const CameraDevice&) = delete;
+  CameraDevice& operator=(const CameraDevice&) = delete;
+
+  const CameraDescription& description() const { return description_; }
+  bool isRecording() const;
+  bool has(StreamKind kind) const { return at(kind) != nullptr; }
+  /// @pre has(kind)
+  SensorStream& stream(StreamKind kind) { return *at(kind); }
+  const SensorStream& stream(StreamKind kind) const { return *at(kind); }
+
+  /// @return why the camera cannot do what is asked, with what it can; empty when it can.
+  std::string refusal(const CameraSettings& settings) const;
+  /// @return the settings with what the camera cannot do replaced by what it does by itself.
+  CameraSettings possible(CameraSettings settings) const;
+  /// Everything but the modes, which `start` sets.
+  /// @pre the streams have been stopped where `depth_registration` changes.
+  void apply(const CameraSettings& settings);
+  /// @throw std::runtime_error with the device's reason.
+  void start(StreamKind kind, const CameraSettings& settings);
+
+ private:
+  bool hasMode(StreamKind kind, const VideoMode& mode) const;
+  bool canRegister() const;
+  const std::unique_ptr<SensorStream>& at(StreamKind kind) const {
+    return streams_[static_cast<int>(kind)];
+  }
+
+  std::shared_ptr<OpenNi2Runtime> runtime_;
+  std::unique_ptr<openni::Device> device_;
+  CameraDescription description_;
+  std::unique_ptr<SensorStream> streams_[kStreamKinds];
+};
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <sensor_msgs/Image.h>
+
+#include <cstddef>
+#include <memory>
+
+namespace dominant_plane_detection {
+
+/// Image messages whose pixels a camera driver writes: the driver's frame buffer is the message's
+/// memory, so that nothing is copied on the way from the sensor to whoever subscribes.
+///
+/// A message goes round: the driver gets its memory (`lend`), the message is published (`take`), the
+/// driver gives the memory back (`giveBack`), the last subscriber lets go. Only when both are done
+/// with it is it used again; somebody who keeps a message keeps its pixels as they are. May be used
+/// from any thread; messages may outlive the pool.
+class ImagePool {
+ public:
+  /// @param spare [#] of messages that are kept for reuse; more are freed.
+  explicit ImagePool(std::size_t spare = 8);
+
+  /// @return memory for a frame of that many bytes.
+  void* lend(std::size_t bytes);
+
+  /// @param memory lent, not yet given back.
+  /// @return the message that owns it, with the pixels and fields that it has; nobody else has it.
+  /// Nothing for memory that is not on loan, or whose message was taken before.
+  sensor_msgs::ImagePtr take(const void* memory);
+
+  /// The driver does not need the memory any more.
+  void giveBack(const void* memory);
+
+  /// @return [#] of messages that are made and not freed.
+  std::size_t messages() const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,203 @@
+#include "openni2/sensor_stream.h"
+
+#include <sensor_msgs/image_encodings.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+
+#include "openni2/runtime.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+openni::SensorType sensorType(StreamKind kind) {
+  if (kind == StreamKind::kDepth) return openni::SENSOR_DEPTH;
+  return kind == StreamKind::kColour ? openni::SENSOR_COLOR : openni::SENSOR_IR;
+}
+
+/// @return the encoding of a pixel format that is published, empty for one that is not.
+std::string encoding(openni::PixelFormat format) {
+  namespace encodings = sensor_msgs::image_encodings;
+  switch (format) {
+    case openni::PIXEL_FORMAT_DEPTH_1_MM:
+      return encodings::TYPE_16UC1;
+    case openni::PIXEL_FORMAT_RGB888:
+      return encodings::RGB8;
+    case openni::PIXEL_FORMAT_GRAY16:
+      return encodings::MONO16;
+    case openni::PIXEL_FORMAT_GRAY8:
+      return encodings::MONO8;
+    default:
+      return "";
+  }
+}
+
+VideoMode toMode(const openni::VideoMode& mode) {
+  return {mode.getResolutionX(), mode.getResolutionY(), mode.getFps()};
+}
+
+std::int64_t steadyNanoseconds() {
+  return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+const char* toString(StreamKind kind) {
+  if (kind == StreamKind::kDepth) return "depth";
+  return kind == StreamKind::kColour ? "rgb" : "ir";
+}
+
+class SensorStream::Listener : public openni::VideoStream::NewFrameListener {
+ public:
+  explicit Listener(SensorStream& stream) : stream_(stream) {}
+  void onNewFrame(openni::VideoStream& /*stream*/) override { stream_.onNewFrame(); }
+
+ private:
+  SensorStream& stream_;
+};
+
+/// Lets OpenNI2 write frames into messages.
+class SensorStream::Allocator : public openni::VideoStream::FrameAllocator {
+ public:
+  explicit Allocator(ImagePool& pool) : pool_(pool) {}
+  void* allocateFrameBuffer(int size) override {
+    return pool_.lend(static_cast<std::size_t>(size));
+  }
+  void freeFrameBuffer(void* data) override { pool_.giveBack(data); }
+
+ private:
+  ImagePool& pool_;
+};
+
+bool SensorStream::isIn(openni::Device& device, StreamKind kind) {
+  return device.hasSensor(sensorType(kind));
+}
+
+SensorStream::SensorStream(openni::Device& device, StreamKind kind, Callback callback)
+    : kind_(kind), callback_(std::move(callback)) {
+  if (stream_.create(device, sensorType(kind)) != openni::STATUS_OK) {
+    throw std::runtime_error(std::string("no ") + toString(kind) +
+                             " stream: " + lastOpenNi2Error());
+  }
+  if (stream_.isPropertySupported(openni::STREAM_PROPERTY_MIRRORING)) {
+    stream_.setMirroringEnabled(false);
+  }
+  allocator_ = std::make_unique<Allocator>(pool_);
+  stream_.setFrameBuffersAllocator(allocator_.get());
+  listener_ = std::make_unique<Listener>(*this);
+  stream_.addNewFrameListener(listener_.get());
+}
+
+SensorStream::~SensorStream() {
+  stop();
+  stream_.removeNewFrameListener(listener_.get());
+  stream_.setFrameBuffersAllocator(nullptr);  // the sensor may outlive us, in other hands
+  stream_.destroy();
+}
+
+std::vector<VideoMode> SensorStream::modes() const {
+  std::vector<VideoMode> modes;
+  const auto& infos = stream_.getSensorInfo().getSupportedVideoModes();
+  for (int i = 0; i < infos.getSize(); ++i) {
+    const VideoMode mode = toMode(infos[i]);
+    if (encoding(infos[i].getPixelFormat()).empty()) continue;
+    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
+  }
+  return modes;
+}
+
+VideoMode SensorStream::mode() const { return toMode(stream_.getVideoMode()); }
+
+double SensorStream::horizontalFieldOfView() const {
+  return static_cast<double>(stream_.getHorizontalFieldOfView());
+}
+
+void SensorStream::setMode(const VideoMode& mode) {
+  const auto current = stream_.getVideoMode();
+  if (toMode(current) == mode && !encoding(current.getPixelFormat()).empty()) return;
+  const auto& infos = stream_.getSensorInfo().getSupportedVideoModes();
+  for (int i = 0; i < infos.getSize(); ++i) {
+    if (!(toMode(infos[i]) == mode) || encoding(infos[i].getPixelFormat()).empty()) continue;
+    if (stream_.setVideoMode(infos[i]) == openni::STATUS_OK) return;
+    throw std::runtime_error(toString(mode) + " is refused: " + lastOpenNi2Error());
+  }
+  throw std::runtime_error("there is no mode " + toString(mode) + ", but " + toString(modes()));
+}
+
+void SensorStream::start(const VideoMode& mode, bool registered) {
+  setMode(mode);
+  registered_ = registered;
+  last_sign_ = steadyNanoseconds();
+  heard_ = false;
+  running_ = true;
+  if (stream_.start() == openni::STATUS_OK) return;
+  running_ = false;
+  throw std::runtime_error(lastOpenNi2Error());
+}
+
+void SensorStream::stop() {
+  if (!running_) return;
+  {
+    const std::lock_guard<std::mutex> lock(reading_);
+    running_ = false;
+  }
+  stream_.stop();
+}
+
+double SensorStream::silence() const {
+  return 1e-9 * static_cast<double>(steadyNanoseconds() - last_sign_);
+}
+
+void SensorStream::setAutomatic(bool exposure, bool white_balance) {
+  openni::CameraSettings* settings = stream_.getCameraSettings();
+  if (settings == nullptr) return;
+  settings->setAutoExposureEnabled(exposure);
+  settings->setAutoWhiteBalanceEnabled(white_balance);
+}
+
+void SensorStream::onNewFrame() {
+  openni::VideoFrameRef frame;
+  if (!read(frame)) return;
+  last_sign_ = steadyNanoseconds();
+  heard_ = true;
+  SensorFrame sensor_frame;
+  sensor_frame.image = message(frame);
+  sensor_frame.device_time = frame.getTimestamp();
+  sensor_frame.number = frame.getFrameIndex();
+  sensor_frame.registered = registered_;
+  frame.release();  // the message keeps the memory
+  callback_(sensor_frame);
+}
+
+bool SensorStream::read(openni::VideoFrameRef& frame) {
+  const std::lock_guard<std::mutex> lock(reading_);
+  if (!running_) return false;
+  openni::VideoStream* streams[] = {&stream_};
+  int ready = 0;
+  return openni::OpenNI::waitForAnyStream(streams, 1, &ready, 0) == openni::STATUS_OK &&
+         stream_.readFrame(&frame) == openni::STATUS_OK && frame.isValid();
+}
+
+sensor_msgs::ImagePtr SensorStream::message(const openni::VideoFrameRef& frame) {
+  sensor_msgs::ImagePtr image = pool_.take(frame.getData());
+  const auto bytes = static_cast<std::size_t>(frame.getStrideInBytes()) *
+                     static_cast<std::size_t>(frame.getHeight());
+  if (!image) {
+    // Somebody else in this process streams the same sensor into memory of their own.
+    void* memory = pool_.lend(bytes);
+    std::memcpy(memory, frame.getData(), bytes);
+    image = pool_.take(memory);
+    pool_.giveBack(memory);
+  }
+  image->data.resize(bytes);  // OpenNI2 may have asked for more than the frame has
+  image->width = static_cast<std::uint32_t>(frame.getWidth());
+  image->height = static_cast<std::uint32_t>(frame.getHeight());
+  image->step = static_cast<std::uint32_t>(frame.getStrideInBytes());
+  image->encoding = encoding(frame.getVideoMode().getPixelFormat());
+  image->is_bigendian = 0;
+  return image;
+}
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <OpenNI.h>
+#include <sensor_msgs/Image.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "openni2/image_pool.h"
+#include "openni2/video_mode.h"
+
+namespace dominant_plane_detection {
+
+/// The images a camera has.
+enum class StreamKind : std::uint8_t { kDepth, kColour, kInfrared };
+constexpr int kStreamKinds = 3;
+constexpr StreamKind kAllStreams[kStreamKinds] = {StreamKind::kDepth, StreamKind::kColour,
+                                                  StreamKind::kInfrared};
+/// @return "depth", "rgb" or "ir", as topics are called.
+const char* toString(StreamKind kind);
+
+struct SensorFrame {
+  sensor_msgs::ImagePtr image;    ///< everything but its header
+  std::uint64_t device_time = 0;  ///< [us] by the device's clock
+  int number = 0;                 ///< counts what the device sent, lost or not
+  bool registered = false;        ///< depth as seen from the colour camera
+};
+
+/// One sensor of an open device. Frames come in a thread of OpenNI2's, in messages whose memory the
+/// device's driver has written.
+class SensorStream {
+ public:
+  using Callback = std::function<void(const SensorFrame&)>;
+
+  /// @return whether a device has such a sensor.
+  static bool isIn(openni::Device& device, StreamKind kind);
+
+  /// @throw std::runtime_error when the device does not give it.
+  SensorStream(openni::Device& device, StreamKind kind, Callback callback);
+  /// Waits for a running callback.
+  ~SensorStream();
+  SensorStream(const SensorStream&) = delete;
+  SensorStream& operator=(const SensorStream&) = delete;
+
+  /// @return the modes with 16-bit millimetres, 8-bit RGB or grey.
+  std::vector<VideoMode> modes() const;
+  /// @return the mode it is in; a recording knows no other.
+  VideoMode mode() const;
+  /// @return [rad] as the device tells, 0 where it does not.
+  double horizontalFieldOfView() const;
+
+  /// @param mode one of `modes()`.
+  /// @param registered of the frames to come.
+  /// @throw std::runtime_error with the device's reason.
+  void start(const VideoMode& mode, bool registered);
+  void stop();
+  bool running() const { return running_; }
+  /// @return [s] since the last frame, or since `start`.
+  double silence() const;
+  /// @return whether there was a frame since `start`.
+  bool heard() const { return heard_; }
+
+  /// Does nothing where the device cannot.
+  void setAutomatic(bool exposure, bool white_balance);
+
+ private:
+  class Listener;
+  class Allocator;
+
+  void setMode(const VideoMode& mode);
+  void onNewFrame();
+  /// @return nothing when there is no frame after all.
+  bool read(openni::VideoFrameRef& frame);
+  sensor_msgs::ImagePtr message(const openni::VideoFrameRef& frame);
+
+  StreamKind kind_;
+  Callback callback_;
+  ImagePool pool_;
+  openni::VideoStream stream_;
+  std::unique_ptr<Allocator> allocator_;
+  std::unique_ptr<Listener> listener_;
+  std::mutex reading_;  ///< reading a frame that stopping has thrown away would never end
+  std::atomic<bool> running_{false};
+  std::atomic<bool> registered_{false};
+  std::atomic<bool> heard_{false};
+  std::atomic<std::int64_t> last_sign_{0};  ///< [ns] of the steady clock
+};
+
+}  // namespace dominant_plane_detection
