@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "dominant_plane_detection/parameters.h"
 
 namespace dominant_plane_detection {
@@ -13,6 +15,10 @@ struct ParameterInfo {
   const char* text;
 };
 
+/// Lets a template take a set of parameters, const or not, and nothing else.
+template <typename T, typename Set>
+using IfParameters = std::enable_if_t<std::is_same_v<std::remove_const_t<T>, Set>, int>;
+
 /// The one list of all parameters: name, unit, limits and text, with the member that holds it.
 ///
 /// Readers of YAML, dynamic_reconfigure and the command line all walk this list; a test holds the
@@ -20,7 +26,7 @@ struct ParameterInfo {
 /// @param parameters a `Parameters`, const or not.
 /// @param visit called as visit(ParameterInfo, member) with a member of type Algorithm, int or
 /// double; the limits of an Algorithm have no meaning.
-template <typename ParametersT, typename Visitor>
+template <typename ParametersT, typename Visitor, IfParameters<ParametersT, Parameters> = 0>
 void visitParameters(ParametersT& parameters, Visitor&& visit) {
   using Info = ParameterInfo;
   auto& p = parameters;

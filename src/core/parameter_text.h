@@ -13,7 +13,8 @@ namespace dominant_plane_detection {
 
 // Reading and checking of any set of parameters that has a `visitParameters`.
 
-/// @throw std::invalid_argument with the parameter's name and unit, what was expected and what came.
+/// @throw std::invalid_argument with the parameter's name and unit, what was expected and what
+/// came.
 template <typename T>
 std::enable_if_t<std::is_arithmetic_v<T>> parseValue(const ParameterInfo& info,
                                                      const std::string& text, T& value) {

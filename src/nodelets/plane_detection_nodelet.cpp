@@ -38,8 +38,8 @@ void PlaneDetectionNodelet::start() {
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   // Somebody may connect before everything is in place, and has to wait until it is.
   const boost::lock_guard<boost::recursive_mutex> lock(mutex_);
-  detector_ = DominantPlaneDetector(loadParameters<Parameters, PlaneDetectionConfig>(private_node,
-                                                                     {"input", "rectified"}));
+  detector_ = DominantPlaneDetector(
+      loadParameters<Parameters, PlaneDetectionConfig>(private_node, {"input", "rectified"}));
   inputs_ = std::make_unique<DetectionInputs>(
       getNodeHandle(), readInputKind(private_node), private_node.param("rectified", false),
       [this](const DetectionInputs::Frame& frame) { onFrame(frame); }, [this] { onPicture(); });

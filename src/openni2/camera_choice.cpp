@@ -33,9 +33,7 @@ CameraChoice byNumber(const std::string& id, const std::vector<CameraDescription
 
 }  // namespace
 
-bool namesItself(const std::string& id) {
-  return id.rfind("virtual://", 0) == 0 || isFile(id);
-}
+bool namesItself(const std::string& id) { return id.rfind("virtual://", 0) == 0 || isFile(id); }
 
 CameraChoice chooseCamera(const std::string& id, const std::vector<CameraDescription>& cameras) {
   if (isFile(id)) {
@@ -52,13 +50,11 @@ CameraChoice chooseCamera(const std::string& id, const std::vector<CameraDescrip
     std::copy_if(cameras.begin(), cameras.end(), std::back_inserter(found), matches);
     return found;
   };
-  auto found = matching([&](const CameraDescription& camera) {
-    return camera.uri == id || camera.serial == id;
-  });
+  auto found = matching(
+      [&](const CameraDescription& camera) { return camera.uri == id || camera.serial == id; });
   if (found.empty()) {
-    found = matching([&](const CameraDescription& camera) {
-      return camera.uri.find(id) != std::string::npos;
-    });
+    found = matching(
+        [&](const CameraDescription& camera) { return camera.uri.find(id) != std::string::npos; });
   }
   if (found.size() == 1) return {found.front().uri, ""};
   if (found.empty()) return {"", "no camera fits '" + id + "'; " + list(cameras)};

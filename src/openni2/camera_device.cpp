@@ -59,9 +59,8 @@ CameraSettings CameraDevice::possible(CameraSettings settings) const {
 }
 
 void CameraDevice::apply(const CameraSettings& settings) {
-  const auto registration = settings.depth_registration
-                                ? openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR
-                                : openni::IMAGE_REGISTRATION_OFF;
+  const auto registration = settings.depth_registration ? openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR
+                                                        : openni::IMAGE_REGISTRATION_OFF;
   if (device_->isImageRegistrationModeSupported(registration)) {
     device_->setImageRegistrationMode(registration);
   }

@@ -14,9 +14,9 @@ constexpr double kSetBack = 0.5;          // [s] by which a clock that was set b
 }  // namespace
 
 bool ClockFilter::jumped(double device, double arrival) const {
-  return device <= last_->device ||                         // restarted
-         arrival < last_->arrival - kSetBack ||             // this computer's clock was set back
-         arrival - late_since_ > kLatePatience;             // one of the clocks was set
+  return device <= last_->device ||              // restarted
+         arrival < last_->arrival - kSetBack ||  // this computer's clock was set back
+         arrival - late_since_ > kLatePatience;  // one of the clocks was set
 }
 
 double ClockFilter::stamp(std::uint64_t device_us, double arrival) {

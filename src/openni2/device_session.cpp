@@ -22,8 +22,8 @@ std::chrono::steady_clock::duration seconds(double value) {
 
 }  // namespace
 
-DeviceSession::DeviceSession(std::string device_id, const CameraSettings& settings,
-                             double patience, Callbacks callbacks)
+DeviceSession::DeviceSession(std::string device_id, const CameraSettings& settings, double patience,
+                             Callbacks callbacks)
     : device_id_(std::move(device_id)),
       callbacks_(std::move(callbacks)),
       wish_(settings),
@@ -260,7 +260,8 @@ void DeviceSession::startWanted(StreamKind kind) {
     }
   }
   std::string& said = said_of_stream_[static_cast<std::size_t>(kind)];
-  if (!problem.empty() && problem != said) ROS_ERROR_STREAM(describe(camera_->description()) << ": " << problem << ".");
+  if (!problem.empty() && problem != said)
+    ROS_ERROR_STREAM(describe(camera_->description()) << ": " << problem << ".");
   said = problem;
 }
 
@@ -295,8 +296,8 @@ void DeviceSession::watch() {
       disconnect(text + ", and starting the stream anew did not help");
       return;
     }
-    ROS_WARN_STREAM(describe(camera_->description()) << ": " << text
-                                                     << "; the stream is started anew.");
+    ROS_WARN_STREAM(describe(camera_->description())
+                    << ": " << text << "; the stream is started anew.");
     stream.stop();
     camera_->start(kind, settings_);
     const std::lock_guard<std::mutex> lock(mutex_);

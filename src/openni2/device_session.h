@@ -97,8 +97,8 @@ class DeviceSession {
   std::array<std::string, kStreamKinds> said_of_stream_;
   std::array<int, kStreamKinds> restarts_in_a_row_{};
   Steady::time_point opened_;
-  double back_off_;        ///< [s] until the next look for a camera
-  double penalty_ = 0.0;   ///< [s] without a look, for a camera that went as soon as it came
+  double back_off_;       ///< [s] until the next look for a camera
+  double penalty_ = 0.0;  ///< [s] without a look, for a camera that went as soon as it came
 
   mutable std::mutex mutex_;  ///< of what follows
   std::condition_variable changed_;

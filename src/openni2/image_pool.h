@@ -10,10 +10,10 @@ namespace dominant_plane_detection {
 /// Image messages whose pixels a camera driver writes: the driver's frame buffer is the message's
 /// memory, so that nothing is copied on the way from the sensor to whoever subscribes.
 ///
-/// A message goes round: the driver gets its memory (`lend`), the message is published (`take`), the
-/// driver gives the memory back (`giveBack`), the last subscriber lets go. Only when both are done
-/// with it is it used again; somebody who keeps a message keeps its pixels as they are. May be used
-/// from any thread; messages may outlive the pool.
+/// A message goes round: the driver gets its memory (`lend`), the message is published (`take`),
+/// the driver gives the memory back (`giveBack`), the last subscriber lets go. Only when both are
+/// done with it is it used again; somebody who keeps a message keeps its pixels as they are. May be
+/// used from any thread; messages may outlive the pool.
 class ImagePool {
  public:
   /// @param spare [#] of messages that are kept for reuse; more are freed.

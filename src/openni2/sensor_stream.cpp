@@ -166,6 +166,7 @@ void SensorStream::onNewFrame() {
   sensor_frame.image = message(frame);
   sensor_frame.device_time = frame.getTimestamp();
   sensor_frame.number = frame.getFrameIndex();
+  sensor_frame.rate = frame.getVideoMode().getFps();
   sensor_frame.registered = registered_;
   frame.release();  // the message keeps the memory
   callback_(sensor_frame);

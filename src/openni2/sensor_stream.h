@@ -27,6 +27,7 @@ struct SensorFrame {
   sensor_msgs::ImagePtr image;    ///< everything but its header
   std::uint64_t device_time = 0;  ///< [us] by the device's clock
   int number = 0;                 ///< counts what the device sent, lost or not
+  int rate = 0;                   ///< [1/s] of the stream's mode
   bool registered = false;        ///< depth as seen from the colour camera
 };
 

@@ -12,8 +12,8 @@ std::string toString(const VideoMode& mode) {
 std::optional<VideoMode> parseVideoMode(const std::string& text) {
   VideoMode mode;
   int length = 0;
-  const int fields = std::sscanf(text.c_str(), "%5dx%5d@%4d%n", &mode.width, &mode.height,
-                                 &mode.rate, &length);
+  const int fields =
+      std::sscanf(text.c_str(), "%5dx%5d@%4d%n", &mode.width, &mode.height, &mode.rate, &length);
   const bool whole = fields == 3 && static_cast<std::size_t>(length) == text.size();
   if (!whole || mode.width <= 0 || mode.height <= 0 || mode.rate <= 0) return std::nullopt;
   return mode;

@@ -15,8 +15,8 @@
 
 namespace dominant_plane_detection {
 
-// Parameters of a node, any set of them that has `visitParameters`, `findErrors` and `setParameter`,
-// and its `Config`, the same as dynamic_reconfigure has it.
+// Parameters of a node, any set of them that has `visitParameters`, `findErrors` and
+// `setParameter`, and its `Config`, the same as dynamic_reconfigure has it.
 
 /// @return the sentences as one line.
 std::string joined(const std::vector<std::string>& sentences);

@@ -2,8 +2,13 @@
 
 namespace dominant_plane_detection::topics {
 
-// Inputs, relative to the node's namespace.
+// The driver's outputs, relative to its namespace; the first is the detection's input, too.
 constexpr const char* kDepth = "depth/image_raw";
+constexpr const char* kRegisteredDepth = "depth_registered/image_raw";
+constexpr const char* kColour = "rgb/image_raw";
+constexpr const char* kInfrared = "ir/image_raw";
+
+// More inputs of the detection, relative to its namespace.
 constexpr const char* kPoints = "points";
 constexpr const char* kPicture = "image";
 

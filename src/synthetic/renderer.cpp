@@ -29,17 +29,21 @@ void addMesh(RTCDevice device, RTCScene scene, const TriangleMesh& mesh) {
   rtcReleaseGeometry(geometry);
 }
 
-RTCRay makeRay(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, float far) {
+RTCRay rayFrom(const Eigen::Vector3f& origin) {
   RTCRay ray{};
   ray.org_x = origin.x();
   ray.org_y = origin.y();
   ray.org_z = origin.z();
+  ray.mask = std::numeric_limits<unsigned>::max();
+  return ray;
+}
+
+/// @param far in lengths of `direction`; negative: Embree skips the ray.
+void aim(const Eigen::Vector3f& direction, float far, RTCRay& ray) {
   ray.dir_x = direction.x();
   ray.dir_y = direction.y();
   ray.dir_z = direction.z();
   ray.tfar = far;
-  ray.mask = std::numeric_limits<unsigned>::max();
-  return ray;
 }
 
 }  // namespace
@@ -79,11 +83,11 @@ class Renderer::Implementation {
     rendering.normal = pose.linear().transpose() * Eigen::Vector3d::UnitZ();
     rendering.distance = pose.translation().z();
 
-    Row row(static_cast<std::size_t>(camera.width));
+    Row row(pose.cast<float>(), static_cast<std::size_t>(camera.width));
     for (int v = 0; v < camera.height; ++v) {
       castRow(pose.cast<float>(), v, row);
       shadeRow(pose.cast<float>(), v, row, rendering);
-      if (layers.shadow) shadowRow(pose.cast<float>(), v, row, rendering);
+      if (layers.shadow) shadowRow(v, row, rendering);
     }
     return rendering;
   }
@@ -91,7 +95,13 @@ class Renderer::Implementation {
  private:
   /// Rays of an image row, cast together: Embree is several times faster at neighbours in a bunch.
   struct Row {
-    explicit Row(std::size_t size) : hits(size), shadow_rays(size), surface(size) {}
+    Row(const Eigen::Isometry3f& pose, std::size_t size)
+        // The projector stands to the right of the camera, as a Kinect v1 has it.
+        : projector(pose * Eigen::Vector3f(static_cast<float>(SensorNoise::kBaseline), 0.0F, 0.0F)),
+          hits(size, RTCRayHit{rayFrom(pose.translation()), RTCHit{}}),
+          shadow_rays(size, rayFrom(projector)),  // rays with a common origin are faster
+          surface(size, projector) {}
+    Eigen::Vector3f projector;  ///< [m]
     std::vector<RTCRayHit> hits;
     std::vector<RTCRay> shadow_rays;
     std::vector<Eigen::Vector3f> surface;  ///< [m] where rays to the projector start
@@ -114,8 +124,7 @@ class Renderer::Implementation {
       // lens sees nothing the ray is switched off: Embree skips what ends before it begins.
       const bool usable = !std::isnan(ray.x());
       const Eigen::Vector3f direction = pose.linear() * (usable ? ray : Eigen::Vector3f::UnitZ());
-      hit.ray = makeRay(pose.translation(), direction,
-                        usable ? std::numeric_limits<float>::infinity() : -1.0F);
+      aim(direction, usable ? std::numeric_limits<float>::infinity() : -1.0F, hit.ray);
       hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     }
     RTCIntersectContext context = coherentContext();
@@ -143,15 +152,10 @@ class Renderer::Implementation {
     }
   }
 
-  void shadowRow(const Eigen::Isometry3f& pose, int v, Row& row, Rendering& rendering) const {
-    // The projector stands to the right of the camera, as a Kinect v1 has it.
-    const auto baseline = static_cast<float>(SensorNoise::kBaseline);
-    const Eigen::Vector3f projector = pose * Eigen::Vector3f(baseline, 0.0F, 0.0F);
+  void shadowRow(int v, Row& row, Rendering& rendering) const {
     for (std::size_t u = 0; u < row.hits.size(); ++u) {
-      // From the projector: rays with a common origin are faster.
       const bool seen = hasHit(row.hits[u]);
-      row.shadow_rays[u] =
-          makeRay(projector, seen ? row.surface[u] - projector : projector, seen ? 1.0F : -1.0F);
+      aim(row.surface[u] - row.projector, seen ? 1.0F : -1.0F, row.shadow_rays[u]);
     }
     RTCIntersectContext context = coherentContext();
     rtcOccluded1M(scene_, &context, row.shadow_rays.data(),

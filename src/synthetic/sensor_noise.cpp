@@ -88,7 +88,7 @@ std::vector<std::uint16_t> senseDepth(const Rendering& rendering, const SensorNo
                                       std::uint32_t frame) {
   std::mt19937 generator(frame);
   const SmoothField field(noise.correlation_length, generator);
-  PixelNoise random(generator());
+  PixelNoise random(static_cast<std::uint32_t>(generator()));
   const auto sigma_constant = static_cast<float>(noise.model.constant);
   const auto sigma_quadratic = static_cast<float>(noise.model.quadratic);
   const auto focal_length = static_cast<float>(rendering.focal_length);

@@ -44,7 +44,7 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("inputs", options.inputs, "PNG files, folders of PNG files, bags")
+  app.add_option("inputs", options.inputs, "PNG files, folders of PNG files, bags, .oni recordings")
       ->required()
       ->type_name("INPUT");
   app.add_option("--output", options.output, "folder for the results, made where it is missing")

@@ -55,4 +55,8 @@ std::unique_ptr<FrameSource> openPngFiles(const std::vector<std::string>& files,
 /// message lists them).
 std::unique_ptr<FrameSource> openBag(const std::string& file, const SourceOptions& options);
 
+/// The depth images of an OpenNI2 recording, with a pinhole of the recorded field of view.
+/// @throw std::runtime_error when the file is no recording, or has no depth.
+std::unique_ptr<FrameSource> openOni(const std::string& file, const SourceOptions& options);
+
 }  // namespace dominant_plane_detection

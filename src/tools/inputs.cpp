@@ -69,14 +69,15 @@ Inputs openInputs(const std::vector<std::string>& paths, const SourceOptions& op
       inputs.errors.push_back(path + ": there is no such file or folder");
     } else if (extension(path) == ".png") {
       png_files.push_back(path);
-    } else if (extension(path) == ".bag") {
+    } else if (extension(path) == ".bag" || extension(path) == ".oni") {
       try {
-        inputs.sources.push_back(openBag(path, options));
+        const auto open = extension(path) == ".bag" ? openBag : openOni;
+        inputs.sources.push_back(open(path, options));
       } catch (const std::exception& reason) {
         inputs.errors.push_back(path + ": " + reason.what());
       }
     } else {
-      inputs.errors.push_back(path + ": expected a .png file, a folder of them, or a .bag");
+      inputs.errors.push_back(path + ": expected a .png file, a folder of them, a .bag or an .oni");
     }
   }
   if (!png_files.empty()) {

@@ -17,7 +17,8 @@ struct Inputs {
   std::size_t frames() const;
 };
 
-/// @param paths PNG files, folders of PNG files and bags, in any mixture and order.
+/// @param paths PNG files, folders of PNG files, bags and .oni recordings, in any mixture and
+/// order.
 Inputs openInputs(const std::vector<std::string>& paths, const SourceOptions& options);
 
 }  // namespace dominant_plane_detection

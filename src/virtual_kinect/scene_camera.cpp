@@ -46,9 +46,8 @@ double SceneCamera::sceneTime(double time) const {
 
 void SceneCamera::depth(double scene_time, bool from_colour, int width, int height,
                         std::uint32_t frame, std::uint16_t* readings) const {
-  const Rendering rendering = renderer(width, height)
-                                  .render(pose(scene_time, from_colour),
-                                          {scene_.noise.shadows, false});
+  const Rendering rendering =
+      renderer(width, height).render(pose(scene_time, from_colour), {scene_.noise.shadows, false});
   const std::vector<std::uint16_t> sensed = senseDepth(rendering, scene_.noise, frame);
   std::copy(sensed.begin(), sensed.end(), readings);
 }
@@ -61,13 +60,11 @@ void SceneCamera::disparity(double scene_time, int width, int height, std::uint3
 }
 
 void SceneCamera::colour(double scene_time, int width, int height, std::uint8_t* pixels) const {
-  const Rendering rendering =
-      renderer(width, height).render(pose(scene_time, true), {false, true});
+  const Rendering rendering = renderer(width, height).render(pose(scene_time, true), {false, true});
   std::copy(rendering.colour.begin(), rendering.colour.end(), pixels);
 }
 
-void SceneCamera::infrared(double scene_time, int width, int height,
-                           std::uint16_t* pixels) const {
+void SceneCamera::infrared(double scene_time, int width, int height, std::uint16_t* pixels) const {
   const Rendering rendering =
       renderer(width, height).render(pose(scene_time, false), {scene_.noise.shadows, false});
   constexpr float kFull = 1023.0F;

@@ -39,9 +39,7 @@ OniDeviceInfo deviceInfo(const std::string& uri) {
 class VirtualDriver : public oni::driver::DriverBase {
  public:
   explicit VirtualDriver(OniDriverServices* services)
-      : DriverBase(services),
-        scenes_(scenesFolder()),
-        scheduler_(std::make_unique<Scheduler>()) {}
+      : DriverBase(services), scenes_(scenesFolder()), scheduler_(std::make_unique<Scheduler>()) {}
 
   OniStatus tryDevice(const char* uri) override {
     if (std::strncmp(uri, kScheme, std::strlen(kScheme)) != 0) return ONI_STATUS_ERROR;
@@ -75,8 +73,8 @@ class VirtualDriver : public oni::driver::DriverBase {
       plugs_.at(name).replug = delay;
     };
     driver.explain = [this](const std::string& text) { explain(text); };
-    plug.device = new VirtualDevice(
-        {plug.uri.serial, plug.scene, plug.uri.start, plug.uri.drift}, std::move(driver));
+    plug.device = new VirtualDevice({plug.uri.serial, plug.scene, plug.uri.start, plug.uri.drift},
+                                    std::move(driver));
     scheduleFaults(name, plug);
     return plug.device;
   }

@@ -50,8 +50,8 @@ void VirtualStream::stop() {
 
 void VirtualStream::run() {
   pthread_setname_np(pthread_self(), "virtual_kinect");
-  const auto period = std::chrono::duration_cast<Steady::duration>(
-      std::chrono::duration<double>(1.0 / mode_.fps));
+  const auto period =
+      std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(1.0 / mode_.fps));
   const int stalls = device_.stalls();
   // All streams of a device expose at multiples of their period, so that depth and colour agree.
   auto number = (Steady::now() - device_.begin()) / period + 1;

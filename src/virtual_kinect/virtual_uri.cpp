@@ -19,8 +19,10 @@ double number(const std::string& name, const std::string& text) {
 }
 
 void setOption(VirtualUri& uri, const std::string& name, const std::string& value) {
-  const std::map<std::string, double*> numbers = {{"start", &uri.start},   {"drift", &uri.drift},
-                                                  {"unplug", &uri.unplug}, {"replug", &uri.replug},
+  const std::map<std::string, double*> numbers = {{"start", &uri.start},
+                                                  {"drift", &uri.drift},
+                                                  {"unplug", &uri.unplug},
+                                                  {"replug", &uri.replug},
                                                   {"stall", &uri.stall}};
   const auto found = numbers.find(name);
   if (found != numbers.end()) {
@@ -30,9 +32,8 @@ void setOption(VirtualUri& uri, const std::string& name, const std::string& valu
   } else if (name == "noise") {
     uri.noise = number(name, value) != 0.0;
   } else {
-    throw std::invalid_argument(
-        "there is no option '" + name +
-        "'; there are serial, noise, start, drift, unplug, replug, stall");
+    throw std::invalid_argument("there is no option '" + name +
+                                "'; there are serial, noise, start, drift, unplug, replug, stall");
   }
 }
 

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <dominant_plane_detection/GetSerial.h>
+#include <dynamic_reconfigure/server.h>
+#include <nodelet/nodelet.h>
+
+#include <boost/thread/recursive_mutex.hpp>
+#include <memory>
+#include <mutex>
+
+#include "openni2/clock_filter.h"
+#include "openni2/device_session.h"
+#include "ros/driver_diagnostics.h"
+#include "ros/driver_outputs.h"
+#include "ros/driver_parameters.h"
+
+namespace dominant_plane_detection {
+
+/// An OpenNI2 camera as a nodelet: depth, colour and infrared images in the memory that the
+/// camera's driver wrote; streams run while somebody listens.
+class OpenNI2DriverNodelet : public nodelet::Nodelet {
+ public:
+  ~OpenNI2DriverNodelet() override;
+
+ private:
+  void onInit() override;
+  void start();
+  void onListenersChanged();
+  /// In a thread of OpenNI2's, one for each stream.
+  void onFrame(StreamKind kind, const SensorFrame& frame);
+  /// In the session's thread.
+  void onOpened(const CameraDevice& camera);
+  void onReconfigure(OpenNI2DriverConfig& config);
+  bool onGetSerial(GetSerial::Request& request, GetSerial::Response& response);
+  DriverParameters parameters() const;
+
+  mutable std::mutex mutex_;  ///< of `parameters_`
+  DriverParameters parameters_;
+  ClockFilter clocks_[kStreamKinds];  ///< each of its stream's thread alone
+  DriverOutputs outputs_;
+  std::unique_ptr<DriverDiagnostics> diagnostics_;
+  std::mutex listeners_mutex_;  ///< of `session_` while listeners come and go
+  std::unique_ptr<DeviceSession> session_;
+  ros::ServiceServer serial_server_;
+  boost::recursive_mutex reconfigure_mutex_;
+  std::unique_ptr<dynamic_reconfigure::Server<OpenNI2DriverConfig>> reconfigure_;
+};
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <image_transport/image_transport.h>
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "openni2/camera_device.h"
+#include "ros/camera_calibration.h"
+
+namespace dominant_plane_detection {
+
+/// Names that users give to what the driver publishes.
+struct DriverNames {
+  std::string depth_frame_id = "camera_depth_optical_frame";  ///< of depth and infrared images
+  std::string rgb_frame_id = "camera_rgb_optical_frame";  ///< of colour images, registered depth
+  std::string depth_camera_info_url;
+  std::string rgb_camera_info_url;
+  std::string ir_camera_info_url;
+};
+
+/// The topics that a camera's images are published on, each with the camera_info of its stamp.
+class DriverOutputs {
+ public:
+  /// @param node topics are relative to it.
+  /// @param listeners_changed called whenever somebody begins or ends to listen to any of them.
+  void advertise(const ros::NodeHandle& node, const DriverNames& names,
+                 const std::function<void()>& listeners_changed);
+  /// Ends all topics; waits for a running `listeners_changed`.
+  void shutdown();
+
+  /// @return whether somebody listens to the images of a stream, on any topic.
+  bool wants(StreamKind kind) const;
+
+  /// Another camera is open.
+  void setCamera(const CameraDevice& camera);
+
+  /// Publishes without a copy: the message must not be touched any more.
+  void publish(StreamKind kind, const SensorFrame& frame, const ros::Time& stamp);
+
+ private:
+  CameraCalibration& calibration(StreamKind kind) { return *calibrations_[static_cast<int>(kind)]; }
+
+  DriverNames names_;
+  std::unique_ptr<CameraCalibration> calibrations_[kStreamKinds];
+  image_transport::CameraPublisher streams_[kStreamKinds];
+  image_transport::CameraPublisher registered_;
+};
+
+}  // namespace dominant_plane_detection
