@@ -51,4 +51,72 @@ sensor_msgs::ImagePtr maskMessage(const std_msgs::Header& header, const Detectio
   return message;
 }
 
+geometry_msgs::PolygonStampedPtr outlineMessage(const std_msgs::Header& header,
+                                                const std::vector<Eigen::Vector3d>& outline) {
+  auto message = boost::make_shared<geometry_msgs::PolygonStamped>();
+  message->header = header;
+  for (const Eigen::Vector3d& corner : outline) {
+    geometry_msgs::Point32 point;
+    point.x = static_cast<float>(corner.x());
+    point.y = static_cast<float>(corner.y());
+    point.z = static_cast<float>(corner.z());
+    message->polygon.points.push_back(point);
+  }
+  return message;
+}
+
+visualization_msgs::MarkerArrayPtr markersMessage(const std_msgs::Header& header,
+                                                  const Detection& detection,
+                                                  const std::vector<Eigen::Vector3d>& outline) {
+  using visualization_msgs::Marker;
+  auto message = boost::make_shared<visualization_msgs::MarkerArray>();
+  const auto add = [&](const char* name, int type) -> Marker& {
+    Marker marker;
+    marker.header = header;
+    marker.ns = name;
+    marker.type = type;
+    marker.action = outline.empty() ? Marker::DELETE : Marker::ADD;
+    marker.pose.orientation.w = 1.0;
+    message->markers.push_back(marker);
+    return message->markers.back();
+  };
+  const auto colour = [](float r, float g, float b, float a) {
+    std_msgs::ColorRGBA rgba;
+    rgba.r = r;
+    rgba.g = g;
+    rgba.b = b;
+    rgba.a = a;
+    return rgba;
+  };
+  const auto point = [](const Eigen::Vector3d& r) {
+    geometry_msgs::Point p;
+    p.x = r.x();
+    p.y = r.y();
+    p.z = r.z();
+    return p;
+  };
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& corner : outline) {
+    middle += corner / static_cast<double>(outline.size());
+  }
+
+  Marker& sheet = add("plane", Marker::TRIANGLE_LIST);
+  sheet.color = colour(0.1F, 0.6F, 1.0F, 0.35F);
+  sheet.scale.x = sheet.scale.y = sheet.scale.z = 1.0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    for (const Eigen::Vector3d& corner : {middle, outline[i], outline[(i + 1) % outline.size()]}) {
+      sheet.points.push_back(point(corner));
+    }
+  }
+  Marker& arrow = add("normal", Marker::ARROW);
+  arrow.color = colour(0.1F, 0.6F, 1.0F, 1.0F);
+  arrow.scale.x = 0.02;  // [m] of the shaft
+  arrow.scale.y = 0.05;  // [m] of the head
+  if (!outline.empty()) {
+    constexpr double kLength = 0.3;  // [m]
+    arrow.points = {point(middle), point(middle + kLength * detection.normal)};
+  }
+  return message;
+}
+
 }  // namespace dominant_plane_detection

@@ -5,6 +5,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include "ros/detection_messages.h"
+#include "ros/ground_outline.h"
 #include "ros/overlay.h"
 #include "ros/topic_names.h"
 
@@ -30,13 +31,18 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
   obstacles_ =
       node.advertise<sensor_msgs::PointCloud2>(topics::kObstacles, kQueue, changed, changed);
   ground_ = node.advertise<sensor_msgs::PointCloud2>(topics::kGround, kQueue, changed, changed);
+  outline_ =
+      node.advertise<geometry_msgs::PolygonStamped>(topics::kOutline, kQueue, changed, changed);
+  markers_ =
+      node.advertise<visualization_msgs::MarkerArray>(topics::kMarkers, kQueue, changed, changed);
   image_transport::ImageTransport transport(node);
   mask_ = transport.advertise(topics::kGroundMask, kQueue, image_changed, image_changed);
   overlay_ = transport.advertise(topics::kOverlay, kQueue, image_changed, image_changed);
 }
 
 void DetectionOutputs::shutdown() {
-  for (ros::Publisher* publisher : {&plane_, &coefficients_, &obstacles_, &ground_}) {
+  for (ros::Publisher* publisher :
+       {&plane_, &coefficients_, &obstacles_, &ground_, &outline_, &markers_}) {
     publisher->shutdown();
   }
   for (image_transport::Publisher* publisher : {&mask_, &overlay_}) publisher->shutdown();
@@ -45,6 +51,7 @@ void DetectionOutputs::shutdown() {
 bool DetectionOutputs::anybodyListens() const {
   return plane_.getNumSubscribers() + coefficients_.getNumSubscribers() +
              obstacles_.getNumSubscribers() + ground_.getNumSubscribers() +
+             outline_.getNumSubscribers() + markers_.getNumSubscribers() +
              mask_.getNumSubscribers() + overlay_.getNumSubscribers() >
          0;
 }
@@ -59,6 +66,7 @@ void DetectionOutputs::publish(const DetectionInputs::Frame& frame, const Detect
   }
   if (mask_.getNumSubscribers() > 0) mask_.publish(maskMessage(frame.header, detection));
   publishClouds(frame, detection);
+  publishShapes(frame, detection);
   if (overlay_.getNumSubscribers() > 0) {
     prepareOverlay(frame, detection, inputs);
   } else {
@@ -77,6 +85,15 @@ void DetectionOutputs::publishClouds(const DetectionInputs::Frame& frame,
   };
   publish(obstacles_, Label::kObstacle);
   publish(ground_, Label::kGround);
+}
+
+void DetectionOutputs::publishShapes(const DetectionInputs::Frame& frame,
+                                     const Detection& detection) {
+  if (outline_.getNumSubscribers() + markers_.getNumSubscribers() == 0) return;
+  rays_.build(frame.camera);
+  const std::vector<Eigen::Vector3d> outline = groundOutline(detection, rays_);
+  if (!outline.empty()) outline_.publish(outlineMessage(frame.header, outline));
+  markers_.publish(markersMessage(frame.header, detection, outline));
 }
 
 void DetectionOutputs::prepareOverlay(const DetectionInputs::Frame& frame,

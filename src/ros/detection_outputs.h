@@ -44,6 +44,7 @@ class DetectionOutputs {
   };
 
   void publishClouds(const DetectionInputs::Frame& frame, const Detection& detection);
+  void publishShapes(const DetectionInputs::Frame& frame, const Detection& detection);
   void prepareOverlay(const DetectionInputs::Frame& frame, const Detection& detection,
                       const DetectionInputs& inputs);
   void publishOverlay(const std::optional<cv::Mat>& picture);
@@ -52,6 +53,8 @@ class DetectionOutputs {
   ros::Publisher coefficients_;
   ros::Publisher obstacles_;
   ros::Publisher ground_;
+  ros::Publisher outline_;
+  ros::Publisher markers_;
   image_transport::Publisher mask_;
   image_transport::Publisher overlay_;
   RayTable rays_;

@@ -19,5 +19,7 @@ constexpr const char* kGroundMask = "ground_mask";
 constexpr const char* kOverlay = "overlay";
 constexpr const char* kObstacles = "obstacles";
 constexpr const char* kGround = "ground";
+constexpr const char* kOutline = "outline";
+constexpr const char* kMarkers = "markers";
 
 }  // namespace dominant_plane_detection::topics

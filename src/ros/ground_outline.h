@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dominant_plane_detection/camera_model.h"
+#include "dominant_plane_detection/detection.h"
+
+namespace dominant_plane_detection {
+
+/// The convex hull of the ground that is seen, on the plane itself.
+/// @param rays of the detection's camera.
+/// @return [m] corners in the optical frame; empty without a plane, or with too little ground for a
+/// hull.
+std::vector<Eigen::Vector3d> groundOutline(const Detection& detection, const RayTable& rays);
+
+}  // namespace dominant_plane_detection
