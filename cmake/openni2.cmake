@@ -25,7 +25,8 @@ install(DIRECTORY ${links}/
 # Links a library or a program with OpenNI2 in our folder.
 function(dpd_use_openni2 target)
   target_include_directories(${target} SYSTEM PRIVATE ${OPENNI2_INCLUDE_DIR})
-  target_link_libraries(${target} PRIVATE ${OPENNI2_LIBRARY})
+  # Not by target_link_libraries: tests use its old signature, everything else the new one.
+  set_property(TARGET ${target} APPEND PROPERTY LINK_LIBRARIES ${OPENNI2_LIBRARY})
   set_target_properties(${target} PROPERTIES
     BUILD_RPATH ${DPD_OPENNI2_DEVEL_FOLDER}
     INSTALL_RPATH "$ORIGIN/${DPD_OPENNI2_FOLDER};${CMAKE_INSTALL_RPATH}")

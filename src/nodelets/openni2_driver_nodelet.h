@@ -26,7 +26,7 @@ class OpenNI2DriverNodelet : public nodelet::Nodelet {
   void onInit() override;
   void start();
   void onListenersChanged();
-  /// In a thread of OpenNI2's, one for each stream.
+  /// In a thread of the camera's, one frame after the other.
   void onFrame(StreamKind kind, const SensorFrame& frame);
   /// In the session's thread.
   void onOpened(const CameraDevice& camera);
@@ -36,7 +36,7 @@ class OpenNI2DriverNodelet : public nodelet::Nodelet {
 
   mutable std::mutex mutex_;  ///< of `parameters_`
   DriverParameters parameters_;
-  ClockFilter clocks_[kStreamKinds];  ///< each of its stream's thread alone
+  ClockFilter clocks_[kStreamKinds];  ///< of the camera's thread alone
   DriverOutputs outputs_;
   std::unique_ptr<DriverDiagnostics> diagnostics_;
   std::mutex listeners_mutex_;  ///< of `session_` while listeners come and go

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "openni2/lasting_threads.h"
+
 namespace dominant_plane_detection {
 
 CameraDevice::CameraDevice(std::shared_ptr<OpenNi2Runtime> runtime, const std::string& uri,
@@ -13,14 +15,44 @@ CameraDevice::CameraDevice(std::shared_ptr<OpenNi2Runtime> runtime, const std::s
   description_ = {info.getUri(), info.getVendor(), info.getName(), serialNumber(*device_)};
   for (const StreamKind kind : kAllStreams) {
     if (!SensorStream::isIn(*device_, kind)) continue;
+    const auto arrived = [this, kind] {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      arrived_[static_cast<int>(kind)] = true;
+      changed_.notify_one();
+    };
     streams_[static_cast<int>(kind)] = std::make_unique<SensorStream>(
-        *device_, kind, [kind, callback](const SensorFrame& frame) { callback(kind, frame); });
+        *device_, kind, arrived,
+        [kind, callback](const SensorFrame& frame) { callback(kind, frame); });
   }
+  delivery_ = runInLastingThread([this] { deliverFrames(); });
 }
 
 CameraDevice::~CameraDevice() {
+  for (auto& stream : streams_) {
+    if (stream) stream->stop();
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_one();
+  delivery_.wait();
   for (auto& stream : streams_) stream.reset();
   runtime_->close(std::move(device_));
+}
+
+void CameraDevice::deliverFrames() {
+  const auto any = [this] { return std::find(arrived_, arrived_ + kStreamKinds, true); };
+  std::unique_lock<std::mutex> lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [&] { return ending_ || any() != arrived_ + kStreamKinds; });
+    if (ending_) return;
+    bool* const arrived = any();
+    *arrived = false;
+    lock.unlock();
+    streams_[arrived - arrived_]->deliver();
+    lock.lock();
+  }
 }
 
 bool CameraDevice::isRecording() const { return device_->isFile(); }

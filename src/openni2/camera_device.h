@@ -1,6 +1,9 @@
 #pragma once
 
+#include <condition_variable>
+#include <future>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -33,6 +36,7 @@ class CameraDevice {
  public:
   using FrameCallback = std::function<void(StreamKind, const SensorFrame&)>;
 
+  /// @param callback called in a thread of the device, one frame after the other.
   /// @throw std::runtime_error with OpenNI2's reason.
   CameraDevice(std::shared_ptr<OpenNi2Runtime> runtime, const std::string& uri,
                const FrameCallback& callback);
@@ -59,6 +63,7 @@ class CameraDevice {
   void start(StreamKind kind, const CameraSettings& settings);
 
  private:
+  void deliverFrames();
   bool hasMode(StreamKind kind, const VideoMode& mode) const;
   bool canRegister() const;
   const std::unique_ptr<SensorStream>& at(StreamKind kind) const {
@@ -69,6 +74,12 @@ class CameraDevice {
   std::unique_ptr<openni::Device> device_;
   CameraDescription description_;
   std::unique_ptr<SensorStream> streams_[kStreamKinds];
+
+  std::mutex mutex_;  ///< of what follows
+  std::condition_variable changed_;
+  bool arrived_[kStreamKinds] = {};  ///< a frame that is not delivered yet
+  bool ending_ = false;
+  std::future<void> delivery_;
 };
 
 }  // namespace dominant_plane_detection

@@ -16,7 +16,7 @@ constexpr double kSetBack = 0.5;          // [s] by which a clock that was set b
 bool ClockFilter::jumped(double device, double arrival) const {
   return device <= last_->device ||              // restarted
          arrival < last_->arrival - kSetBack ||  // this computer's clock was set back
-         arrival - late_since_ > kLatePatience;  // one of the clocks was set
+         device - late_since_ > kLatePatience;   // one of the clocks was set
 }
 
 double ClockFilter::stamp(std::uint64_t device_us, double arrival) {
@@ -24,11 +24,11 @@ double ClockFilter::stamp(std::uint64_t device_us, double arrival) {
   const double offset = arrival - device;
   if (!last_ || jumped(device, arrival)) {
     offset_ = offset;
-    late_since_ = arrival;
+    late_since_ = device;
   } else {
     offset_ = std::min(offset, offset_ + kDriftAllowance * (device - last_->device));
   }
-  if (offset - offset_ < kLate) late_since_ = arrival;
+  if (offset - offset_ < kLate) late_since_ = device;
 
   double stamp = device + offset_;
   const bool set_back = last_ && arrival < last_->arrival - kSetBack;

@@ -31,7 +31,7 @@ class ClockFilter {
 
   std::optional<Last> last_;
   double offset_ = 0.0;      ///< [s] this computer's clock minus the device's, plus the least delay
-  double late_since_ = 0.0;  ///< [s] arrival since when all frames came later than they can
+  double late_since_ = 0.0;  ///< [s] by the device, since when all frames came later than they can
 };
 
 }  // namespace dominant_plane_detection

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "openni2/camera_choice.h"
+#include "openni2/lasting_threads.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -30,7 +31,7 @@ DeviceSession::DeviceSession(std::string device_id, const CameraSettings& settin
       back_off_(kShortestBackOff),
       patience_(patience) {
   report(SessionState::kSearching, "looking for " + device_id_);
-  thread_ = std::thread([this] { run(); });
+  running_ = runInLastingThread([this] { run(); });
 }
 
 DeviceSession::~DeviceSession() {
@@ -39,7 +40,7 @@ DeviceSession::~DeviceSession() {
     ending_ = true;
   }
   changed_.notify_all();
-  thread_.join();
+  running_.wait();
 }
 
 void DeviceSession::want(StreamKind kind, bool wanted) {
@@ -91,6 +92,7 @@ void DeviceSession::run() {
   lock.unlock();
   if (listener_ != 0) runtime_->removeListener(listener_);
   camera_.reset();
+  runtime_.reset();
 }
 
 void DeviceSession::step() {

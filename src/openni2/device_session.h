@@ -9,7 +9,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "openni2/camera_device.h"
 
@@ -33,11 +32,11 @@ struct SessionStatus {
 
 /// Keeps a camera open and its wanted streams running, whatever happens to it: waits for one that
 /// is not there yet, finds the same one again (by its serial number) after it was unplugged, starts
-/// silent streams anew. All that may take time happens in a thread of its own.
+/// silent streams anew. All that may take time happens in another thread.
 class DeviceSession {
  public:
   struct Callbacks {
-    /// In OpenNI2's thread.
+    /// In a thread of the camera's, one frame after the other.
     CameraDevice::FrameCallback frame;
     /// In the session's thread, before the first frame: the camera may be another one now.
     std::function<void(const CameraDevice&)> opened;
@@ -113,7 +112,7 @@ class DeviceSession {
   std::optional<Change> change_;
   SessionStatus status_;
 
-  std::thread thread_;
+  std::future<void> running_;
 };
 
 }  // namespace dominant_plane_detection

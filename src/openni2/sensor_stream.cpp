@@ -49,15 +49,6 @@ const char* toString(StreamKind kind) {
   return kind == StreamKind::kColour ? "rgb" : "ir";
 }
 
-class SensorStream::Listener : public openni::VideoStream::NewFrameListener {
- public:
-  explicit Listener(SensorStream& stream) : stream_(stream) {}
-  void onNewFrame(openni::VideoStream& /*stream*/) override { stream_.onNewFrame(); }
-
- private:
-  SensorStream& stream_;
-};
-
 /// Lets OpenNI2 write frames into messages.
 class SensorStream::Allocator : public openni::VideoStream::FrameAllocator {
  public:
@@ -75,8 +66,9 @@ bool SensorStream::isIn(openni::Device& device, StreamKind kind) {
   return device.hasSensor(sensorType(kind));
 }
 
-SensorStream::SensorStream(openni::Device& device, StreamKind kind, Callback callback)
-    : kind_(kind), callback_(std::move(callback)) {
+SensorStream::SensorStream(openni::Device& device, StreamKind kind, Signal arrived,
+                           Callback callback)
+    : kind_(kind), arrived_(std::move(arrived)), callback_(std::move(callback)) {
   if (stream_.create(device, sensorType(kind)) != openni::STATUS_OK) {
     throw std::runtime_error(std::string("no ") + toString(kind) +
                              " stream: " + lastOpenNi2Error());
@@ -86,13 +78,17 @@ SensorStream::SensorStream(openni::Device& device, StreamKind kind, Callback cal
   }
   allocator_ = std::make_unique<Allocator>(pool_);
   stream_.setFrameBuffersAllocator(allocator_.get());
-  listener_ = std::make_unique<Listener>(*this);
-  stream_.addNewFrameListener(listener_.get());
+  // By the C interface: the listener of the C++ one calls OpenNI2 in the stream's own thread, which
+  // ends with the stream; see lasting_threads.h.
+  oniStreamRegisterNewFrameCallback(
+      stream_._getHandle(),
+      [](OniStreamHandle, void* cookie) { static_cast<SensorStream*>(cookie)->arrived_(); }, this,
+      &listener_);
 }
 
 SensorStream::~SensorStream() {
   stop();
-  stream_.removeNewFrameListener(listener_.get());
+  oniStreamUnregisterNewFrameCallback(stream_._getHandle(), listener_);
   stream_.setFrameBuffersAllocator(nullptr);  // the sensor may outlive us, in other hands
   stream_.destroy();
 }
@@ -140,7 +136,7 @@ void SensorStream::start(const VideoMode& mode, bool registered) {
 void SensorStream::stop() {
   if (!running_) return;
   {
-    const std::lock_guard<std::mutex> lock(reading_);
+    const std::lock_guard<std::mutex> lock(delivering_);
     running_ = false;
   }
   stream_.stop();
@@ -157,7 +153,9 @@ void SensorStream::setAutomatic(bool exposure, bool white_balance) {
   settings->setAutoWhiteBalanceEnabled(white_balance);
 }
 
-void SensorStream::onNewFrame() {
+void SensorStream::deliver() {
+  const std::lock_guard<std::mutex> lock(delivering_);
+  if (!running_) return;
   openni::VideoFrameRef frame;
   if (!read(frame)) return;
   last_sign_ = steadyNanoseconds();
@@ -173,8 +171,6 @@ void SensorStream::onNewFrame() {
 }
 
 bool SensorStream::read(openni::VideoFrameRef& frame) {
-  const std::lock_guard<std::mutex> lock(reading_);
-  if (!running_) return false;
   openni::VideoStream* streams[] = {&stream_};
   int ready = 0;
   return openni::OpenNI::waitForAnyStream(streams, 1, &ready, 0) == openni::STATUS_OK &&

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <OniCAPI.h>
 #include <OpenNI.h>
 #include <sensor_msgs/Image.h>
 
@@ -31,18 +32,19 @@ struct SensorFrame {
   bool registered = false;        ///< depth as seen from the colour camera
 };
 
-/// One sensor of an open device. Frames come in a thread of OpenNI2's, in messages whose memory the
-/// device's driver has written.
+/// One sensor of an open device. Frames are messages whose memory the device's driver has written.
 class SensorStream {
  public:
   using Callback = std::function<void(const SensorFrame&)>;
+  using Signal = std::function<void()>;
 
   /// @return whether a device has such a sensor.
   static bool isIn(openni::Device& device, StreamKind kind);
 
+  /// @param arrived called in a thread of OpenNI2's when there is a frame to `deliver`.
+  /// @param callback gets the frames, from within `deliver`.
   /// @throw std::runtime_error when the device does not give it.
-  SensorStream(openni::Device& device, StreamKind kind, Callback callback);
-  /// Waits for a running callback.
+  SensorStream(openni::Device& device, StreamKind kind, Signal arrived, Callback callback);
   ~SensorStream();
   SensorStream(const SensorStream&) = delete;
   SensorStream& operator=(const SensorStream&) = delete;
@@ -58,7 +60,10 @@ class SensorStream {
   /// @param registered of the frames to come.
   /// @throw std::runtime_error with the device's reason.
   void start(const VideoMode& mode, bool registered);
+  /// Waits for a running callback.
   void stop();
+  /// Hands the newest frame to the callback, if there is one and the stream runs.
+  void deliver();
   bool running() const { return running_; }
   /// @return [s] since the last frame, or since `start`.
   double silence() const;
@@ -69,22 +74,21 @@ class SensorStream {
   void setAutomatic(bool exposure, bool white_balance);
 
  private:
-  class Listener;
   class Allocator;
 
   void setMode(const VideoMode& mode);
-  void onNewFrame();
-  /// @return nothing when there is no frame after all.
+  /// @return false when there is no frame after all.
   bool read(openni::VideoFrameRef& frame);
   sensor_msgs::ImagePtr message(const openni::VideoFrameRef& frame);
 
   StreamKind kind_;
+  Signal arrived_;
   Callback callback_;
   ImagePool pool_;
   openni::VideoStream stream_;
   std::unique_ptr<Allocator> allocator_;
-  std::unique_ptr<Listener> listener_;
-  std::mutex reading_;  ///< reading a frame that stopping has thrown away would never end
+  OniCallbackHandle listener_ = nullptr;
+  std::mutex delivering_;  ///< reading a frame that stopping has thrown away would never end
   std::atomic<bool> running_{false};
   std::atomic<bool> registered_{false};
   std::atomic<bool> heard_{false};

@@ -103,6 +103,9 @@ void DetectionInputs::onPair(const std::optional<CameraInfoMatcher::Pair>& pair)
                              "Dropped an image of " << images_.getTopic() << ": " << error << ".");
     return;
   }
+  // Shows whether images come without a copy: compare with where the driver wrote them.
+  ROS_DEBUG_STREAM_NAMED("zero_copy", "depth image of " << pair->image->header.stamp
+                                                        << " is read at " << depth->data);
   callback_({pair->image->header, *depth, *camera});
 }
 

@@ -1,0 +1,235 @@
+// What goes wrong with cameras, and what the driver makes of it.
+
+#include <dominant_plane_detection/DominantPlane.h>
+#include <dominant_plane_detection/GetSerial.h>
+#include <sensor_msgs/Image.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+#include "support/driver_test.h"
+#include "support/ros_test.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+class DriverFault : public testing::Test {
+ protected:
+  std::string serial(const std::string& ns = "/camera") {
+    GetSerial call;
+    return ros::service::call(ns + "/get_serial", call) ? call.response.serial : "";
+  }
+
+  ros::NodeHandle node_{"/camera"};
+  Manager manager_;
+};
+
+TEST_F(DriverFault, ComesBackAfterItWasUnplugged) {
+  const std::string uri = "virtual://rubbish_bin?serial=U1";
+  ASSERT_TRUE(manager_.loadDriver("/camera", uri));
+  ASSERT_TRUE(manager_.loadDetection("/camera"));
+  std::vector<ros::SteadyTime> arrivals;
+  ros::Time last_stamp;
+  bool ascending = true;
+  const ros::Subscriber planes = node_.subscribe<DominantPlane>(
+      "plane_detection/plane", 100, [&](const DominantPlaneConstPtr& plane) {
+        arrivals.push_back(ros::SteadyTime::now());
+        ascending = ascending && plane->header.stamp > last_stamp;
+        last_stamp = plane->header.stamp;
+      });
+  ASSERT_TRUE(spinUntil([&] { return arrivals.size() >= 10; }));
+  constexpr double kAway = 1.0;
+  Probe(uri).unplug(kAway);
+  ASSERT_TRUE(spinUntil([&] { return serial().empty(); }));
+  const std::size_t before = arrivals.size();
+  ASSERT_TRUE(spinUntil([&] { return arrivals.size() >= before + 30; }));
+  EXPECT_EQ(serial(), "U1");
+  EXPECT_TRUE(ascending);
+  double longest = 0.0;
+  for (std::size_t i = 1; i < arrivals.size(); ++i) {
+    longest = std::max(longest, (arrivals[i] - arrivals[i - 1]).toSec());
+  }
+  std::cout << "away for " << kAway << " s; longest gap between planes " << longest << " s\n";
+}
+
+TEST_F(DriverFault, FindsTheSameCameraByItsSerialNumberAmongOthers) {
+  // Both are plugged in once they were opened by name.
+  const auto runtime = OpenNi2Runtime::instance();
+  const std::string first = "virtual://rubbish_bin?serial=S1";
+  const std::string second = "virtual://laboratory?serial=S2";
+  for (const std::string& uri : {first, second}) runtime->close(runtime->open(uri));
+  ASSERT_TRUE(manager_.loadDriver("/camera", "S2"));
+  Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= 5; }));
+  EXPECT_EQ(serial(), "S2");
+  Probe(second).unplug(0.5);
+  ASSERT_TRUE(spinUntil([&] { return serial().empty(); }));
+  const std::size_t before = images.size();
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= before + 5; }));
+  EXPECT_EQ(serial(), "S2") << "not the other one, that was there all the time";
+}
+
+TEST_F(DriverFault, AStalledStreamIsStartedAnew) {
+  const std::string uri = "virtual://rubbish_bin?serial=W1";
+  ASSERT_TRUE(manager_.loadDriver("/camera", uri, {{"watchdog_timeout", "0.5"}}));
+  Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= 5; }));
+  for (int i = 0; i < 2; ++i) {
+    Probe(uri).stall();
+    const std::size_t before = images.size();
+    ASSERT_TRUE(spinUntil([&] { return images.size() >= before + 10; }));
+  }
+  EXPECT_EQ(serial(), "W1");
+}
+
+TEST_F(DriverFault, StampsFollowAClockThatDrifts) {
+  // 3 % fast: as much in two seconds as 75 us/s are in a quarter of an hour.
+  const std::string uri = "virtual://rubbish_bin?serial=D1&drift=75e-6&noise=0";
+  ASSERT_TRUE(manager_.loadDriver("/camera", uri, {{"depth_mode", "320x240@60"}}));
+  Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
+  const auto worst = [&] {
+    const auto records = Probe(uri).records();
+    std::vector<double> errors;
+    for (const auto& image : images.messages()) {
+      const auto record = recordAt(records, image->data.data());
+      if (!record) continue;
+      const double exposed = 1e-9 * static_cast<double>(record->exposed);
+      errors.push_back(std::abs(image->header.stamp.toSec() - exposed));
+    }
+    std::sort(errors.begin(), errors.end());
+    return errors.empty() ? NAN : errors[errors.size() * 9 / 10];
+  };
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= 120; }));
+  EXPECT_LT(worst(), 0.005);
+  for (std::size_t i = 1; i < images.size(); ++i) {
+    ASSERT_GT(images.messages()[i]->header.stamp, images.messages()[i - 1]->header.stamp);
+  }
+}
+
+TEST_F(DriverFault, AWrongDeviceIdWaitsAndUnloads) {
+  for (const std::string id : {"no-such-serial", "#7", "virtual://no_such_scene", "/no/file.oni"}) {
+    ASSERT_TRUE(manager_.loadDriver("/camera", id)) << id;
+    Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
+    EXPECT_TRUE(spinUntil([&] { return images.connected(); })) << id;
+    EXPECT_EQ(serial(), "");
+    EXPECT_TRUE(manager_.unload("/camera/driver")) << id;
+  }
+}
+
+TEST_F(DriverFault, WaitsForACameraThatIsPluggedInLater) {
+  ASSERT_TRUE(manager_.loadDriver("/camera", "LATE1"));
+  Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
+  ASSERT_TRUE(spinUntil([&] { return images.connected(); }));
+  EXPECT_EQ(images.size(), 0U);
+  const auto runtime = OpenNi2Runtime::instance();
+  runtime->close(runtime->open("virtual://rubbish_bin?serial=LATE1"));  // plugs it in
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= 10; }));
+  EXPECT_EQ(serial(), "LATE1");
+}
+
+TEST_F(DriverFault, TwoCamerasInOneManager) {
+  ros::NodeHandle left("/left"), right("/right");
+  ASSERT_TRUE(manager_.loadDriver("/left", "virtual://rubbish_bin?serial=L&noise=0",
+                                  {{"depth_mode", "320x240@30"}}));
+  ASSERT_TRUE(manager_.loadDriver("/right", "virtual://laboratory?serial=R&noise=0",
+                                  {{"depth_mode", "320x240@30"}}));
+  ASSERT_TRUE(manager_.loadDetection("/left"));
+  ASSERT_TRUE(manager_.loadDetection("/right"));
+  Listener<DominantPlane> left_planes(left, "plane_detection/plane");
+  Listener<DominantPlane> right_planes(right, "plane_detection/plane");
+  ASSERT_TRUE(spinUntil([&] { return left_planes.size() >= 30 && right_planes.size() >= 30; }));
+  EXPECT_EQ(serial("/left"), "L");
+  EXPECT_EQ(serial("/right"), "R");
+  for (const auto& plane : left_planes.messages()) EXPECT_NEAR(plane->distance, 0.45, 0.003);
+  for (const auto& plane : right_planes.messages()) EXPECT_GT(plane->distance, 1.1);
+}
+
+TEST_F(DriverFault, UnloadAndReloadWhileImagesFlow) {
+  const std::string uri = "virtual://rubbish_bin?serial=X1";
+  Listener<DominantPlane> planes(node_, "plane_detection/plane");
+  Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
+  ASSERT_TRUE(manager_.loadDriver("/camera", uri));
+  ASSERT_TRUE(manager_.loadDetection("/camera"));
+  for (int i = 0; i < 6; ++i) {
+    std::size_t before = planes.size();
+    ASSERT_TRUE(spinUntil([&] { return planes.size() >= before + 3; })) << i;
+    if (i % 2 == 0) {
+      ASSERT_TRUE(manager_.unload("/camera/driver"));
+      ASSERT_TRUE(manager_.loadDriver("/camera", uri));
+    } else {
+      ASSERT_TRUE(manager_.unload("/camera/plane_detection"));
+      ASSERT_TRUE(manager_.loadDetection("/camera"));
+    }
+  }
+  const std::size_t before = planes.size();
+  ASSERT_TRUE(spinUntil([&] { return planes.size() >= before + 3; }));
+}
+
+class Recording : public DriverFault {
+ protected:
+  static constexpr int kFrames = 20;
+
+  /// Records some frames with OpenNI2's own recorder.
+  Recording()
+      : file_(std::filesystem::temp_directory_path() /
+              ("dpd_driver_" + std::to_string(getpid()) + ".oni")) {
+    const auto runtime = OpenNi2Runtime::instance();
+    auto device = runtime->open("virtual://rubbish_bin?serial=REC&noise=0");
+    openni::VideoStream stream;
+    EXPECT_EQ(stream.create(*device, openni::SENSOR_DEPTH), openni::STATUS_OK);
+    EXPECT_EQ(stream.start(), openni::STATUS_OK);
+    openni::Recorder recorder;
+    EXPECT_EQ(recorder.create(file_.c_str()), openni::STATUS_OK);
+    EXPECT_EQ(recorder.attach(stream), openni::STATUS_OK);
+    EXPECT_EQ(recorder.start(), openni::STATUS_OK);
+    for (int i = 0; i < kFrames; ++i) {
+      openni::VideoStream* streams[] = {&stream};
+      openni::VideoFrameRef frame;
+      int ready = 0;
+      EXPECT_EQ(openni::OpenNI::waitForAnyStream(streams, 1, &ready, 20000), openni::STATUS_OK);
+      EXPECT_EQ(stream.readFrame(&frame), openni::STATUS_OK);
+    }
+    recorder.stop();
+    recorder.destroy();
+    stream.destroy();
+    runtime->close(std::move(device));
+  }
+  ~Recording() override { std::filesystem::remove(file_); }
+
+  std::string file_;
+};
+
+TEST_F(Recording, LoopsWithStampsThatGoOn) {
+  ASSERT_TRUE(manager_.loadDriver("/camera", file_));
+  ASSERT_TRUE(manager_.loadDetection("/camera"));
+  Listener<DominantPlane> planes(node_, "plane_detection/plane");
+  Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= 3 * kFrames; }));
+  for (std::size_t i = 1; i < images.size(); ++i) {
+    EXPECT_GT(images.messages()[i]->header.stamp, images.messages()[i - 1]->header.stamp);
+  }
+  const double seconds =
+      (images.last()->header.stamp - images.messages().front()->header.stamp).toSec();
+  EXPECT_GT(seconds, 0.7 * 3 * kFrames / 30.0) << "played in real time";
+  for (const auto& plane : planes.messages()) EXPECT_NEAR(plane->distance, 0.45, 0.003);
+}
+
+TEST_F(Recording, EndsQuietlyWhenPlayedOnce) {
+  ASSERT_TRUE(
+      manager_.loadDriver("/camera", file_, {{"repeat", "false"}, {"watchdog_timeout", "0.3"}}));
+  Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= kFrames / 2; }));
+  const auto ended = [&] {
+    const std::size_t before = images.size();
+    spinUntil([] { return false; }, 1.0);
+    return images.size() == before;
+  };
+  ASSERT_TRUE(spinUntil(ended));
+  EXPECT_LE(images.size(), std::size_t{kFrames});
+  EXPECT_TRUE(manager_.unload("/camera/driver")) << "nothing blocks at the end";
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection
