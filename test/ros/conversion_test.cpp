@@ -10,6 +10,7 @@
 #include "ros/cloud_conversion.h"
 #include "ros/depth_conversion.h"
 #include "ros/detection_messages.h"
+#include "ros/ground_outline.h"
 #include "ros/overlay.h"
 #include "support/synthetic_depth.h"
 
@@ -288,6 +289,81 @@ TEST_F(DetectionMessages, OverlayPaintsByLabel) {
   EXPECT_GT(hole[1], 130);
   const cv::Mat grey = greyPicture(depth_.view());
   EXPECT_GT(grey.at<cv::Vec3b>(479, 320)[0], grey.at<cv::Vec3b>(300, 320)[0]);  // near is bright
+}
+
+class Outline : public testing::Test {
+ protected:
+  Outline() {
+    rays_.build(camera_);
+    detection_.state = State::kFound;
+    detection_.normal = upOf(0.6, 0.1);
+    detection_.distance = 0.8;
+    detection_.width = camera_.width;
+    detection_.height = camera_.height;
+    detection_.labels.assign(640 * 480, static_cast<std::uint8_t>(Label::kUnknown));
+  }
+  void markGround(int u, int v) {
+    detection_.labels[static_cast<std::size_t>(640 * v + u)] =
+        static_cast<std::uint8_t>(Label::kGround);
+  }
+
+  CameraModel camera_ = testCamera();
+  RayTable rays_;
+  Detection detection_;
+};
+
+TEST_F(Outline, IsTheHullOfTheGroundOnThePlane) {
+  for (int v = 200; v <= 400; ++v) {
+    for (int u = 100; u <= 500; ++u) markGround(u, v);
+  }
+  const auto outline = groundOutline(detection_, rays_);
+  std::vector<Eigen::Vector2d> pixels;
+  for (const Eigen::Vector3d& corner : outline) {
+    EXPECT_NEAR(detection_.normal.dot(corner) + detection_.distance, 0.0, 1e-6);
+    pixels.emplace_back(camera_.fx * corner.x() / corner.z() + camera_.cx,
+                        camera_.fy * corner.y() / corner.z() + camera_.cy);
+  }
+  // A rectangle in the image: all corners are on its border, and its own four are among them.
+  for (const Eigen::Vector2d& pixel : pixels) {
+    const double across = std::min(std::abs(pixel.x() - 100.0), std::abs(pixel.x() - 500.0));
+    const double down = std::min(std::abs(pixel.y() - 200.0), std::abs(pixel.y() - 400.0));
+    EXPECT_LT(std::min(across, down), 0.05);
+  }
+  for (const Eigen::Vector2d& own : {Eigen::Vector2d(100, 200), Eigen::Vector2d(500, 200),
+                                     Eigen::Vector2d(100, 400), Eigen::Vector2d(500, 400)}) {
+    EXPECT_TRUE(std::any_of(pixels.begin(), pixels.end(), [&](const Eigen::Vector2d& pixel) {
+      return (pixel - own).norm() < 0.05;
+    }));
+  }
+}
+
+TEST_F(Outline, IsEmptyWithoutAHull) {
+  EXPECT_TRUE(groundOutline(detection_, rays_).empty()) << "no ground";
+  markGround(320, 300);
+  EXPECT_TRUE(groundOutline(detection_, rays_).empty()) << "a point";
+  detection_.state = State::kTooSmall;
+  for (int u = 0; u < 640; ++u) markGround(u, 300 + u % 7);
+  EXPECT_TRUE(groundOutline(detection_, rays_).empty()) << "no plane";
+}
+
+TEST_F(Outline, MarkersAreASheetAndAnArrowAlongTheNormal) {
+  for (int v = 200; v <= 400; ++v) markGround(v, v), markGround(600 - v / 2, v);
+  const auto outline = groundOutline(detection_, rays_);
+  std_msgs::Header header;
+  header.frame_id = "optical";
+  const auto markers = markersMessage(header, detection_, outline);
+  ASSERT_EQ(markers->markers.size(), 2U);
+  EXPECT_EQ(markers->markers[0].points.size(), 3 * outline.size());
+  const auto& arrow = markers->markers[1];
+  ASSERT_EQ(arrow.points.size(), 2U);
+  EXPECT_EQ(arrow.header.frame_id, "optical");
+  EXPECT_NEAR(arrow.points[1].x - arrow.points[0].x, 0.3 * detection_.normal.x(), 1e-9);
+  EXPECT_NEAR(arrow.points[1].z - arrow.points[0].z, 0.3 * detection_.normal.z(), 1e-9);
+  const auto gone = markersMessage(header, detection_, {});
+  for (const auto& marker : gone->markers) {
+    EXPECT_EQ(marker.action, visualization_msgs::Marker::DELETE);
+  }
+  EXPECT_EQ(outlineMessage(header, outline)->polygon.points.size(), outline.size());
 }
 
 }  // namespace

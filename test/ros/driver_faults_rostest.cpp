@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "support/driver_test.h"
+#include "support/oni_recording.h"
 #include "support/ros_test.h"
 
 namespace dominant_plane_detection {
@@ -85,7 +86,6 @@ TEST_F(DriverFault, AStalledStreamIsStartedAnew) {
 }
 
 TEST_F(DriverFault, StampsFollowAClockThatDrifts) {
-  // 3 % fast: as much in two seconds as 75 us/s are in a quarter of an hour.
   const std::string uri = "virtual://rubbish_bin?serial=D1&drift=75e-6&noise=0";
   ASSERT_TRUE(manager_.loadDriver("/camera", uri, {{"depth_mode", "320x240@60"}}));
   Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
@@ -171,30 +171,10 @@ class Recording : public DriverFault {
  protected:
   static constexpr int kFrames = 20;
 
-  /// Records some frames with OpenNI2's own recorder.
   Recording()
       : file_(std::filesystem::temp_directory_path() /
               ("dpd_driver_" + std::to_string(getpid()) + ".oni")) {
-    const auto runtime = OpenNi2Runtime::instance();
-    auto device = runtime->open("virtual://rubbish_bin?serial=REC&noise=0");
-    openni::VideoStream stream;
-    EXPECT_EQ(stream.create(*device, openni::SENSOR_DEPTH), openni::STATUS_OK);
-    EXPECT_EQ(stream.start(), openni::STATUS_OK);
-    openni::Recorder recorder;
-    EXPECT_EQ(recorder.create(file_.c_str()), openni::STATUS_OK);
-    EXPECT_EQ(recorder.attach(stream), openni::STATUS_OK);
-    EXPECT_EQ(recorder.start(), openni::STATUS_OK);
-    for (int i = 0; i < kFrames; ++i) {
-      openni::VideoStream* streams[] = {&stream};
-      openni::VideoFrameRef frame;
-      int ready = 0;
-      EXPECT_EQ(openni::OpenNI::waitForAnyStream(streams, 1, &ready, 20000), openni::STATUS_OK);
-      EXPECT_EQ(stream.readFrame(&frame), openni::STATUS_OK);
-    }
-    recorder.stop();
-    recorder.destroy();
-    stream.destroy();
-    runtime->close(std::move(device));
+    recordOni("virtual://rubbish_bin?serial=REC&noise=0", file_, kFrames);
   }
   ~Recording() override { std::filesystem::remove(file_); }
 

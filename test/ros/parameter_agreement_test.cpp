@@ -9,11 +9,14 @@
 
 #include "dominant_plane_detection/parameter_table.h"
 #include "ros/detection_parameters.h"
+#include "ros/driver_parameters.h"
 
 namespace dominant_plane_detection {
 namespace {
 
-std::string textOf(Algorithm value) { return value == Algorithm::kGrid ? "grid" : "kdtree"; }
+std::string textOf(Algorithm value) { return configValue(value); }
+std::string textOf(const VideoMode& value) { return configValue(value); }
+std::string textOf(bool value) { return value ? "true" : "false"; }
 template <typename T>
 std::string textOf(T value) {
   std::ostringstream text;
@@ -25,9 +28,10 @@ std::string textOf(T value) {
 struct Row {
   std::string name, unit, text, value;
 };
+template <typename ParametersT>
 std::vector<Row> tableRows() {
   std::vector<Row> rows;
-  const Parameters defaults;
+  const ParametersT defaults;
   visitParameters(defaults, [&](const ParameterInfo& info, const auto& value) {
     rows.push_back({info.name, info.unit, info.text, textOf(value)});
   });
@@ -48,13 +52,14 @@ std::vector<std::string> linesOf(const std::string& file) {
   return lines;
 }
 
-TEST(ParameterAgreement, DynamicReconfigure) {
-  PlaneDetectionConfig config = PlaneDetectionConfig::__getDefault__();
-  const auto minimum = PlaneDetectionConfig::__getMin__();
-  const auto maximum = PlaneDetectionConfig::__getMax__();
-  const auto& descriptions = PlaneDetectionConfig::__getParamDescriptions__();
+template <typename ParametersT, typename Config>
+void compareWithConfig() {
+  Config config = Config::__getDefault__();
+  const auto minimum = Config::__getMin__();
+  const auto maximum = Config::__getMax__();
+  const auto& descriptions = Config::__getParamDescriptions__();
   std::size_t i = 0;
-  const Parameters defaults;
+  const ParametersT defaults;
   visitParameters(defaults, [&](const ParameterInfo& info, const auto& value) {
     ASSERT_LT(i, descriptions.size());
     const auto& description = *descriptions[i++];
@@ -64,16 +69,19 @@ TEST(ParameterAgreement, DynamicReconfigure) {
     description.getValue(config, default_value);
     description.getValue(minimum, min);
     description.getValue(maximum, max);
-    using T = std::decay_t<decltype(value)>;
-    if constexpr (std::is_same_v<T, Algorithm>) {
-      EXPECT_EQ(boost::any_cast<std::string>(default_value), textOf(value));
-    } else {
-      EXPECT_EQ(boost::any_cast<T>(default_value), value) << info.name;
+    using T = std::decay_t<decltype(configValue(value))>;
+    EXPECT_EQ(boost::any_cast<T>(default_value), configValue(value)) << info.name;
+    if constexpr (std::is_arithmetic_v<T>) {
       EXPECT_EQ(boost::any_cast<T>(min), static_cast<T>(info.min)) << info.name;
       EXPECT_EQ(boost::any_cast<T>(max), static_cast<T>(info.max)) << info.name;
     }
   });
   EXPECT_EQ(i, descriptions.size());
+}
+
+TEST(ParameterAgreement, DynamicReconfigure) {
+  compareWithConfig<Parameters, PlaneDetectionConfig>();
+  compareWithConfig<DriverParameters, OpenNI2DriverConfig>();
 }
 
 TEST(ParameterAgreement, ConfigAndParametersConvertBothWays) {
@@ -89,10 +97,11 @@ TEST(ParameterAgreement, ConfigAndParametersConvertBothWays) {
   EXPECT_EQ(back.expected_up, parameters.expected_up);
 }
 
-TEST(ParameterAgreement, DefaultYaml) {
-  const std::vector<std::string> lines = linesOf("config/default.yaml");
+template <typename ParametersT>
+void compareWithYaml(const std::string& file) {
+  const std::vector<std::string> lines = linesOf(file);
   std::vector<std::string> expected, found;
-  for (const Row& row : tableRows()) {
+  for (const Row& row : tableRows<ParametersT>()) {
     expected.push_back("# [" + row.unit + "] " + row.text);
     expected.push_back(row.name + ": " + row.value);
   }
@@ -105,6 +114,11 @@ TEST(ParameterAgreement, DefaultYaml) {
                             : line.substr(0, colon + 2) + sameNumber(line.substr(colon + 2)));
   }
   EXPECT_EQ(found, expected);
+}
+
+TEST(ParameterAgreement, Yaml) {
+  compareWithYaml<Parameters>("config/default.yaml");
+  compareWithYaml<DriverParameters>("config/driver.yaml");
 }
 
 TEST(ParameterAgreement, PaperYamlIsValid) {
@@ -122,15 +136,16 @@ TEST(ParameterAgreement, PaperYamlIsValid) {
   EXPECT_EQ(parameters.delta.sigmas, 0.0);
 }
 
-TEST(ParameterAgreement, Readme) {
+template <typename ParametersT>
+void compareWithReadme() {
   std::map<std::string, std::string> table;
   std::vector<std::string> expected, found;
-  for (const Row& row : tableRows()) {
+  for (const Row& row : tableRows<ParametersT>()) {
     expected.push_back("| `" + row.name + "` | " + row.value + " | " + row.unit + " | " + row.text +
                        " |");
   }
   for (const std::string& line : linesOf("README.md")) {
-    for (const Row& row : tableRows()) {
+    for (const Row& row : tableRows<ParametersT>()) {
       const std::string begin = "| `" + row.name + "` | ";
       if (line.rfind(begin, 0) != 0) continue;
       const std::size_t end = line.find(" |", begin.size());
@@ -139,6 +154,11 @@ TEST(ParameterAgreement, Readme) {
     }
   }
   EXPECT_EQ(found, expected);
+}
+
+TEST(ParameterAgreement, Readme) {
+  compareWithReadme<Parameters>();
+  compareWithReadme<DriverParameters>();
 }
 
 }  // namespace

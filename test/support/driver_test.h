@@ -1,7 +1,6 @@
 #pragma once
 
 #include <OpenNI.h>
-#include <gtest/gtest.h>
 #include <nodelet/loader.h>
 #include <ros/ros.h>
 

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -14,26 +13,14 @@
 #include <string>
 #include <vector>
 
+#include "support/command.h"
+#include "support/oni_recording.h"
+
 namespace dominant_plane_detection {
 namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* kCamera = " --camera 580,580,319.5,239.5 ";
-
-struct Outcome {
-  int status;
-  std::string text;  ///< standard output and standard error
-};
-
-Outcome run(const std::string& command) {
-  Outcome outcome{-1, ""};
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  char buffer[256];
-  while (fgets(buffer, sizeof(buffer), pipe) != nullptr) outcome.text += buffer;
-  const int status = pclose(pipe);
-  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
 
 using Row = std::vector<std::string>;
 
@@ -114,6 +101,46 @@ TEST_F(DetectPlanes, Bag) {
   const Outcome topic = detect(path("drive.bag") + " --topic /nothing");
   EXPECT_EQ(topic.status, 1);
   EXPECT_NE(topic.text.find("/camera/depth/image_raw"), std::string::npos) << topic.text;
+}
+
+TEST_F(DetectPlanes, OniRecording) {
+  recordOni("virtual://rubbish_bin?serial=TOOL", path("drive.oni"), 6);
+  const Outcome outcome = detect(path("drive.oni"));
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  const auto rows = planes();
+  ASSERT_GE(rows.size(), 4U);
+  EXPECT_EQ(rows.count("0.000000000"), 1U) << "named by the recording's own time";
+  for (const auto& [frame, row] : rows) {
+    if (frame != "frame") expectTruth(row);
+  }
+  // The camera comes from the recorded field of view, unless it is given.
+  ASSERT_EQ(detect(path("drive.oni") + " --camera 290,290,319.5,239.5").status, 0);
+  EXPECT_NE(planes().begin()->second[5], rows.begin()->second[5]);
+
+  std::ofstream(path("broken.oni")) << "no recording";
+  const Outcome broken = detect(path("broken.oni"));
+  EXPECT_EQ(broken.status, 1);
+  EXPECT_NE(broken.text.find("broken.oni"), std::string::npos) << broken.text;
+}
+
+TEST(ListDevices, ShowsWhatADeviceCanDo) {
+  const Outcome outcome =
+      run(std::string(DPD_LIST_DEVICES) + " 'virtual://laboratory?serial=LIST'");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.text.find("serial number LIST"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("depth: 640x480@30, 320x240@60, 320x240@30"), std::string::npos);
+  const Outcome wrong = run(std::string(DPD_LIST_DEVICES) + " '#99'");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_NE(wrong.text.find("there is no camera #99"), std::string::npos) << wrong.text;
+}
+
+TEST(ListDevices, SaysThatAnotherOpenNI2WasLoadedFirst) {
+  const Outcome outcome =
+      run(std::string("LD_PRELOAD=") + DPD_SYSTEM_OPENNI2 + " " + DPD_LIST_DEVICES);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.text.find("expected OpenNI2 from the folder dominant_plane_detection/openni2"),
+            std::string::npos)
+      << outcome.text;
 }
 
 TEST_F(DetectPlanes, BothAlgorithmsAgree) {
