@@ -104,8 +104,8 @@ void DetectionInputs::onPair(const std::optional<CameraInfoMatcher::Pair>& pair)
     return;
   }
   // Shows whether images come without a copy: compare with where the driver wrote them.
-  ROS_DEBUG_STREAM_NAMED("zero_copy", "depth image of " << pair->image->header.stamp
-                                                        << " is read at " << depth->data);
+  ROS_DEBUG_STREAM_NAMED(
+      "zero_copy", "depth image of " << pair->image->header.stamp << " is read at " << depth->data);
   callback_({pair->image->header, *depth, *camera});
 }
 
