@@ -116,7 +116,9 @@ void OpenNI2DriverNodelet::onReconfigure(OpenNI2DriverConfig& config) {
   try {
     const auto wanted = fromConfig<DriverParameters>(config);
     error = joined(findErrors(wanted));
-    if (error.empty()) error = session_->apply(wanted.camera);
+    // The camera may take its time to answer, and this is called from onInit as well.
+    const bool ask = error.empty() && !(wanted.camera == old.camera);
+    if (ask) error = session_->apply(wanted.camera);
     if (error.empty()) {
       session_->setPatience(wanted.watchdog_timeout);
       const std::lock_guard<std::mutex> lock(mutex_);

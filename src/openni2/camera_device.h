@@ -22,6 +22,12 @@ struct CameraSettings {
   bool auto_white_balance = true;   ///< of the colour camera
   bool repeat = true;               ///< a recording begins again at its end
 
+  bool operator==(const CameraSettings& other) const {
+    return depth_mode == other.depth_mode && rgb_mode == other.rgb_mode &&
+           ir_mode == other.ir_mode && depth_registration == other.depth_registration &&
+           auto_exposure == other.auto_exposure && auto_white_balance == other.auto_white_balance &&
+           repeat == other.repeat;
+  }
   const VideoMode& mode(StreamKind kind) const {
     if (kind == StreamKind::kDepth) return depth_mode;
     return kind == StreamKind::kColour ? rgb_mode : ir_mode;

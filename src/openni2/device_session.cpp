@@ -51,6 +51,7 @@ void DeviceSession::want(StreamKind kind, bool wanted) {
 }
 
 std::string DeviceSession::apply(const CameraSettings& settings) {
+  const std::lock_guard<std::mutex> one_at_a_time(applying_);
   std::future<std::string> answer;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -154,7 +155,7 @@ void DeviceSession::connect(const std::string& uri) {
   said_.clear();
   said_of_stream_.fill("");
   restarts_in_a_row_.fill(0);
-  const std::string refusal = camera_->refusal(settings_);
+  const std::string refusal = camera_->refusal(wish_);
   settings_ = camera_->possible(wish_);
   if (!refusal.empty()) {
     ROS_ERROR_STREAM("Refused settings of " << describe(camera_->description()) << ": " << refusal
@@ -262,8 +263,9 @@ void DeviceSession::startWanted(StreamKind kind) {
     }
   }
   std::string& said = said_of_stream_[static_cast<std::size_t>(kind)];
-  if (!problem.empty() && problem != said)
+  if (!problem.empty() && problem != said) {
     ROS_ERROR_STREAM(describe(camera_->description()) << ": " << problem << ".");
+  }
   said = problem;
 }
 

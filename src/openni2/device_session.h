@@ -99,6 +99,7 @@ class DeviceSession {
   double back_off_;       ///< [s] until the next look for a camera
   double penalty_ = 0.0;  ///< [s] without a look, for a camera that went as soon as it came
 
+  std::mutex applying_;       ///< held by whoever waits for an answer
   mutable std::mutex mutex_;  ///< of what follows
   std::condition_variable changed_;
   bool ending_ = false;

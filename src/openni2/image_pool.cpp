@@ -1,5 +1,6 @@
 #include "openni2/image_pool.h"
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <vector>
@@ -59,6 +60,12 @@ sensor_msgs::ImagePtr ImagePool::take(const void* memory) {
 }
 
 void ImagePool::giveBack(const void* memory) { state_->end(memory, &State::Loan::by_driver); }
+
+bool ImagePool::lent() const {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  return std::any_of(state_->loans.begin(), state_->loans.end(),
+                     [](const auto& loan) { return loan.second.by_driver; });
+}
 
 std::size_t ImagePool::messages() const {
   const std::lock_guard<std::mutex> lock(state_->mutex);

@@ -30,6 +30,8 @@ class ImagePool {
   /// The driver does not need the memory any more.
   void giveBack(const void* memory);
 
+  /// @return whether the driver has memory that it did not give back.
+  bool lent() const;
   /// @return [#] of messages that are made and not freed.
   std::size_t messages() const;
 

@@ -52,14 +52,10 @@ const char* toString(StreamKind kind) {
 /// Lets OpenNI2 write frames into messages.
 class SensorStream::Allocator : public openni::VideoStream::FrameAllocator {
  public:
-  explicit Allocator(ImagePool& pool) : pool_(pool) {}
-  void* allocateFrameBuffer(int size) override {
-    return pool_.lend(static_cast<std::size_t>(size));
-  }
-  void freeFrameBuffer(void* data) override { pool_.giveBack(data); }
+  void* allocateFrameBuffer(int size) override { return pool.lend(static_cast<std::size_t>(size)); }
+  void freeFrameBuffer(void* data) override { pool.giveBack(data); }
 
- private:
-  ImagePool& pool_;
+  ImagePool pool;
 };
 
 bool SensorStream::isIn(openni::Device& device, StreamKind kind) {
@@ -76,7 +72,7 @@ SensorStream::SensorStream(openni::Device& device, StreamKind kind, Signal arriv
   if (stream_.isPropertySupported(openni::STREAM_PROPERTY_MIRRORING)) {
     stream_.setMirroringEnabled(false);
   }
-  allocator_ = std::make_unique<Allocator>(pool_);
+  allocator_ = std::make_unique<Allocator>();
   stream_.setFrameBuffersAllocator(allocator_.get());
   // By the C interface: the listener of the C++ one calls OpenNI2 in the stream's own thread, which
   // ends with the stream; see lasting_threads.h.
@@ -89,8 +85,10 @@ SensorStream::SensorStream(openni::Device& device, StreamKind kind, Signal arriv
 SensorStream::~SensorStream() {
   stop();
   oniStreamUnregisterNewFrameCallback(stream_._getHandle(), listener_);
-  stream_.setFrameBuffersAllocator(nullptr);  // the sensor may outlive us, in other hands
+  // The sensor may be in other hands as well, and go on with our memory: then it is left to it.
+  const bool taken_back = stream_.setFrameBuffersAllocator(nullptr) == openni::STATUS_OK;
   stream_.destroy();
+  if (!taken_back || allocator_->pool.lent()) static_cast<void>(allocator_.release());
 }
 
 std::vector<VideoMode> SensorStream::modes() const {
@@ -178,15 +176,15 @@ bool SensorStream::read(openni::VideoFrameRef& frame) {
 }
 
 sensor_msgs::ImagePtr SensorStream::message(const openni::VideoFrameRef& frame) {
-  sensor_msgs::ImagePtr image = pool_.take(frame.getData());
+  sensor_msgs::ImagePtr image = allocator_->pool.take(frame.getData());
   const auto bytes = static_cast<std::size_t>(frame.getStrideInBytes()) *
                      static_cast<std::size_t>(frame.getHeight());
   if (!image) {
     // Somebody else in this process streams the same sensor into memory of their own.
-    void* memory = pool_.lend(bytes);
+    void* memory = allocator_->pool.lend(bytes);
     std::memcpy(memory, frame.getData(), bytes);
-    image = pool_.take(memory);
-    pool_.giveBack(memory);
+    image = allocator_->pool.take(memory);
+    allocator_->pool.giveBack(memory);
   }
   image->data.resize(bytes);  // OpenNI2 may have asked for more than the frame has
   image->width = static_cast<std::uint32_t>(frame.getWidth());

@@ -84,7 +84,6 @@ class SensorStream {
   StreamKind kind_;
   Signal arrived_;
   Callback callback_;
-  ImagePool pool_;
   openni::VideoStream stream_;
   std::unique_ptr<Allocator> allocator_;
   OniCallbackHandle listener_ = nullptr;

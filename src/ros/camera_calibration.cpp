@@ -4,11 +4,22 @@
 #include <sensor_msgs/distortion_models.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 
 namespace dominant_plane_detection {
 namespace {
 
 constexpr double kKinectFieldOfView = 1.0145;  // [rad] as PrimeSense devices report
+
+/// @return the file that camera_info_manager takes when no URL is given.
+std::filesystem::path defaultFile(const std::string& camera_name) {
+  const char* ros_home = std::getenv("ROS_HOME");
+  const char* home = std::getenv("HOME");
+  const std::filesystem::path folder =
+      ros_home != nullptr ? ros_home : std::filesystem::path(home != nullptr ? home : ".") / ".ros";
+  return folder / "camera_info" / (camera_name + ".yaml");
+}
 
 }  // namespace
 
@@ -63,8 +74,15 @@ void CameraCalibration::setCamera(const std::string& serial, double field_of_vie
                                                                          << " images; that of a "
                                                                             "Kinect is taken.");
   }
-  manager_.setCameraName(serial.empty() ? name_ : name_ + "_" + serial);
-  manager_.loadCameraInfo(url_);
+  const std::string camera_name = serial.empty() ? name_ : name_ + "_" + serial;
+  manager_.setCameraName(camera_name);
+  std::error_code error;
+  if (url_.empty() && !std::filesystem::exists(defaultFile(camera_name), error)) {
+    // Asked to load it, the manager would warn, though nobody has said that there is one.
+    manager_.setCameraInfo(sensor_msgs::CameraInfo());
+  } else {
+    manager_.loadCameraInfo(url_);
+  }
 }
 
 sensor_msgs::CameraInfo CameraCalibration::info(std::uint32_t width, std::uint32_t height) {

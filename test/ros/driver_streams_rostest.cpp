@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <set>
 #include <sstream>
@@ -248,6 +250,59 @@ TEST_F(Driver, ColourAndInfraredComeWithTheirInfo) {
   ASSERT_TRUE(spinUntil([&] { return infrared.size() >= 3 && info.size() >= 3; }));
   EXPECT_EQ(infrared.last()->encoding, "mono16");
   EXPECT_EQ(infrared.last()->header.frame_id, "camera_depth_optical_frame");
+}
+
+TEST_F(Driver, AModeThatTheCameraDoesNotHaveIsReplacedAtTheStart) {
+  ASSERT_TRUE(manager_.loadDriver("/camera", kUri, {{"depth_mode", "1280x1024@30"}}));
+  Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= 3; }));
+  EXPECT_EQ(images.last()->width, 640U);
+}
+
+TEST_F(Driver, CalibrationOfAFileIsScaledToTheImages) {
+  const std::string file =
+      std::filesystem::temp_directory_path() / ("depth_VK1_" + std::to_string(getpid()) + ".yaml");
+  std::ofstream(file)
+      << "image_width: 320\nimage_height: 240\ncamera_name: depth_VK1\n"
+         "camera_matrix: {rows: 3, cols: 3, data: [300, 0, 150, 0, 301, 120, 0, 0, 1]}\n"
+         "distortion_model: plumb_bob\n"
+         "distortion_coefficients: {rows: 1, cols: 5, data: [0.1, 0, 0, 0, 0]}\n"
+         "rectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}\n"
+         "projection_matrix: {rows: 3, cols: 4, data: [300, 0, 150, 0, 0, 301, 120, 0, 0, 0, 1, "
+         "0]}\n";
+  std::string url = "file://" + file;
+  url.replace(url.find("depth_VK1"), 9, "${NAME}");
+  ASSERT_TRUE(manager_.loadDriver("/camera", kUri, {{"depth_camera_info_url", url}}));
+  Listener<sensor_msgs::CameraInfo> infos(node_, "depth/camera_info");
+  ASSERT_TRUE(spinUntil([&] { return infos.size() >= 1; }));
+  EXPECT_DOUBLE_EQ(infos.last()->K[0], 600.0);
+  EXPECT_DOUBLE_EQ(infos.last()->K[2], 300.5);
+  EXPECT_DOUBLE_EQ(infos.last()->K[4], 602.0);
+  EXPECT_DOUBLE_EQ(infos.last()->D[0], 0.1);
+  EXPECT_EQ(infos.last()->width, 640U);
+  std::filesystem::remove(file);
+}
+
+TEST_F(Driver, TwoDriversMayHaveTheSameCamera) {
+  ros::NodeHandle other("/other");
+  ASSERT_TRUE(manager_.loadDriver("/camera", kUri));
+  Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= 5; }));
+  ASSERT_TRUE(manager_.loadDriver("/other", kUri));
+  {
+    Listener<sensor_msgs::Image> others(other, "depth/image_raw");
+    ASSERT_TRUE(spinUntil([&] { return others.size() >= 20; }));
+    // Of one exposure, in whose memory it may be.
+    const auto& pixels = others.last()->data;
+    EXPECT_TRUE(spinUntil([&] {
+      return std::any_of(images.messages().begin(), images.messages().end(),
+                         [&](const auto& image) { return image->data == pixels; });
+    }));
+  }
+  ASSERT_TRUE(manager_.unload("/other/driver"));
+  const std::size_t before = images.size();
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= before + 20; }));
+  ASSERT_TRUE(manager_.unload("/camera/driver"));
 }
 
 class DriverParameterChange : public Driver {
