@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "calibration/depth_calibration_file.h"
 #include "ros/depth_correction.h"
 
 namespace dominant_plane_detection {
 namespace {
 
 /// What is read once, at the start.
-const std::set<std::string> kStartParameters = {"device_id",           "depth_frame_id",
-                                                "rgb_frame_id",        "depth_camera_info_url",
-                                                "rgb_camera_info_url", "ir_camera_info_url"};
+const std::set<std::string> kStartParameters = {
+    "device_id",           "depth_frame_id",     "rgb_frame_id",     "depth_camera_info_url",
+    "rgb_camera_info_url", "ir_camera_info_url", "depth_calibration"};
 
 DriverNames readNames(const ros::NodeHandle& node) {
   DriverNames names;
@@ -27,6 +28,19 @@ DriverNames readNames(const ros::NodeHandle& node) {
 std::string readDeviceId(const ros::NodeHandle& node) {
   XmlRpc::XmlRpcValue value;
   return node.getParam("device_id", value) ? asText(value) : "#1";
+}
+
+DepthCalibration readCalibration(const ros::NodeHandle& node) {
+  const std::string file = node.param<std::string>("depth_calibration", "");
+  if (file.empty()) return DepthCalibration::kinect();
+  try {
+    return loadDepthCalibration(file);
+  } catch (const std::runtime_error& error) {
+    ROS_ERROR_STREAM("Refused " << node.resolveName("depth_calibration")
+                                << ", the usual calibration of a Kinect v1 is used: "
+                                << error.what());
+    return DepthCalibration::kinect();
+  }
 }
 
 }  // namespace
@@ -56,8 +70,9 @@ void OpenNI2DriverNodelet::onInit() {
 void OpenNI2DriverNodelet::start() {
   const ros::NodeHandle& node = getNodeHandle();
   ros::NodeHandle& private_node = getPrivateNodeHandle();
-  parameters_ =
-      loadParameters<DriverParameters, OpenNI2DriverConfig>(private_node, kStartParameters);
+  calibration_ = readCalibration(private_node);
+  setParameters(
+      loadParameters<DriverParameters, OpenNI2DriverConfig>(private_node, kStartParameters));
   {
     // Somebody may connect before everything is in place, and has to wait until it is.
     const std::lock_guard<std::mutex> lock(listeners_mutex_);
@@ -65,6 +80,9 @@ void OpenNI2DriverNodelet::start() {
     DeviceSession::Callbacks callbacks;
     callbacks.frame = [this](StreamKind kind, const SensorFrame& frame) { onFrame(kind, frame); };
     callbacks.opened = [this](const CameraDevice& camera) { onOpened(camera); };
+    callbacks.acceleration = [this](const openni2_plugin::Acceleration& acceleration) {
+      onAcceleration(acceleration);
+    };
     diagnostics_ = std::make_unique<DriverDiagnostics>(node, private_node, getName(), [this] {
       const std::lock_guard<std::mutex> guard(listeners_mutex_);
       return session_ ? session_->status() : SessionStatus();
@@ -89,19 +107,44 @@ void OpenNI2DriverNodelet::onListenersChanged() {
     diagnostics_->setWanted(kind, wanted);
     session_->want(kind, wanted);
   }
+  session_->wantAcceleration(outputs_.wantsImu());
 }
 
 void OpenNI2DriverNodelet::onFrame(StreamKind kind, const SensorFrame& frame) {
   try {
     const ros::Time arrival = ros::Time::now();
     const DriverParameters now = parameters();
-    const double stamp =
+    const double seconds =
         clocks_[static_cast<int>(kind)].stamp(frame.device_time, arrival.toSec()) + now.time_offset;
-    if (kind == StreamKind::kDepth) correctDepth(now.z_offset, now.z_scale, *frame.image);
+    const ros::Time stamp(std::max(seconds, 0.0));
+    if (kind == StreamKind::kDepth) toDepth(frame, stamp);
     diagnostics_->count(kind, frame);
-    outputs_.publish(kind, frame, ros::Time(std::max(stamp, 0.0)));
+    outputs_.publish(kind, frame, stamp);
   } catch (const std::exception& error) {
     NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped an image: " << error.what());
+  }
+}
+
+void OpenNI2DriverNodelet::toDepth(const SensorFrame& frame, const ros::Time& stamp) {
+  if (!frame.raw) {
+    const DriverParameters now = parameters();
+    correctDepth(now.z_offset, now.z_scale, *frame.image);
+    return;
+  }
+  if (outputs_.wantsRawDisparity()) outputs_.publishRawDisparity(*frame.image, stamp);
+  std::shared_ptr<const DisparityTable> table;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    table = disparity_table_;
+  }
+  toMillimetres(*table, *frame.image);
+}
+
+void OpenNI2DriverNodelet::onAcceleration(const openni2_plugin::Acceleration& acceleration) {
+  try {
+    outputs_.publish(acceleration, ros::Time::now());
+  } catch (const std::exception& error) {
+    NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped a reading: " << error.what());
   }
 }
 
@@ -121,8 +164,7 @@ void OpenNI2DriverNodelet::onReconfigure(OpenNI2DriverConfig& config) {
     if (ask) error = session_->apply(wanted.camera);
     if (error.empty()) {
       session_->setPatience(wanted.watchdog_timeout);
-      const std::lock_guard<std::mutex> lock(mutex_);
-      parameters_ = wanted;
+      setParameters(wanted);
     }
   } catch (const std::invalid_argument& exception) {
     error = exception.what();
@@ -142,6 +184,14 @@ bool OpenNI2DriverNodelet::onGetSerial(GetSerial::Request& /*request*/,
 DriverParameters OpenNI2DriverNodelet::parameters() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return parameters_;
+}
+
+void OpenNI2DriverNodelet::setParameters(const DriverParameters& parameters) {
+  const auto table =
+      std::make_shared<const DisparityTable>(calibration_, parameters.z_offset, parameters.z_scale);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  parameters_ = parameters;
+  disparity_table_ = table;
 }
 
 }  // namespace dominant_plane_detection

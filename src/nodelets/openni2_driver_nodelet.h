@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 
+#include "dominant_plane_detection/disparity_table.h"
 #include "openni2/clock_filter.h"
 #include "openni2/device_session.h"
 #include "ros/driver_diagnostics.h"
@@ -31,11 +32,18 @@ class OpenNI2DriverNodelet : public nodelet::Nodelet {
   /// In the session's thread.
   void onOpened(const CameraDevice& camera);
   void onReconfigure(OpenNI2DriverConfig& config);
+  /// In the session's thread.
+  void onAcceleration(const openni2_plugin::Acceleration& acceleration);
+  void toDepth(const SensorFrame& frame, const ros::Time& stamp);
   bool onGetSerial(GetSerial::Request& request, GetSerial::Response& response);
   DriverParameters parameters() const;
+  void setParameters(const DriverParameters& parameters);
 
-  mutable std::mutex mutex_;  ///< of `parameters_`
+  mutable std::mutex mutex_;  ///< of what follows
   DriverParameters parameters_;
+  std::shared_ptr<const DisparityTable> disparity_table_;
+
+  DepthCalibration calibration_;
   ClockFilter clocks_[kStreamKinds];  ///< of the camera's thread alone
   DriverOutputs outputs_;
   std::unique_ptr<DriverDiagnostics> diagnostics_;

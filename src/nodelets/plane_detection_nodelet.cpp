@@ -21,6 +21,7 @@ InputKind readInputKind(const ros::NodeHandle& node) {
 PlaneDetectionNodelet::~PlaneDetectionNodelet() {
   // Each of these waits for its running callback, which may be waiting for the mutex: it must not
   // be held here. Outputs first, or else a new listener would subscribe the inputs again.
+  if (mount_service_) mount_service_->shutdown();
   outputs_.shutdown();
   if (inputs_) inputs_->unsubscribe();
   reconfigure_.reset();
@@ -44,6 +45,7 @@ void PlaneDetectionNodelet::start() {
       getNodeHandle(), readInputKind(private_node), private_node.param("rectified", false),
       [this](const DetectionInputs::Frame& frame) { onFrame(frame); }, [this] { onPicture(); });
   outputs_.advertise(private_node, [this] { onListenersChanged(); });
+  mount_service_ = std::make_unique<MountService>(private_node, [this] { onListenersChanged(); });
   reconfigure_ =
       std::make_unique<dynamic_reconfigure::Server<PlaneDetectionConfig>>(mutex_, private_node);
   reconfigure_->setCallback(
@@ -52,7 +54,9 @@ void PlaneDetectionNodelet::start() {
 
 void PlaneDetectionNodelet::onListenersChanged() {
   const boost::lock_guard<boost::recursive_mutex> lock(mutex_);
-  if (!inputs_ || outputs_.anybodyListens() == inputs_->subscribed()) return;
+  if (!inputs_) return;
+  const bool wanted = outputs_.anybodyListens() || (mount_service_ && mount_service_->wants());
+  if (wanted == inputs_->subscribed()) return;
   inputs_->subscribed() ? inputs_->unsubscribe() : inputs_->subscribe();
 }
 
@@ -62,6 +66,7 @@ void PlaneDetectionNodelet::onFrame(const DetectionInputs::Frame& frame) {
     const auto start = std::chrono::steady_clock::now();
     const Detection& detection = detector_.detect(frame.depth, frame.camera);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    mount_service_->add(detection);
     outputs_.publish(frame, detection, time.count(), *inputs_);
   } catch (const std::exception& error) {
     NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped an image: " << error.what());

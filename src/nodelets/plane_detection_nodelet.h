@@ -11,6 +11,7 @@
 #include "ros/detection_inputs.h"
 #include "ros/detection_outputs.h"
 #include "ros/detection_parameters.h"
+#include "ros/mount_service.h"
 
 namespace dominant_plane_detection {
 
@@ -33,6 +34,7 @@ class PlaneDetectionNodelet : public nodelet::Nodelet {
   DominantPlaneDetector detector_;
   DetectionOutputs outputs_;
   std::unique_ptr<DetectionInputs> inputs_;
+  std::unique_ptr<MountService> mount_service_;
   std::unique_ptr<dynamic_reconfigure::Server<PlaneDetectionConfig>> reconfigure_;
 };
 

@@ -57,10 +57,21 @@ void CameraDevice::deliverFrames() {
 
 bool CameraDevice::isRecording() const { return device_->isFile(); }
 
-bool CameraDevice::hasMode(StreamKind kind, const VideoMode& mode) const {
+bool CameraDevice::hasMode(StreamKind kind, const CameraSettings& settings) const {
   if (isRecording()) return true;  // it plays what it has
-  const std::vector<VideoMode> modes = stream(kind).modes();
-  return std::find(modes.begin(), modes.end(), mode) != modes.end();
+  const bool raw = kind == StreamKind::kDepth && settings.raw_disparity;
+  const std::vector<VideoMode> modes = stream(kind).modes(raw);
+  return std::find(modes.begin(), modes.end(), settings.mode(kind)) != modes.end();
+}
+
+bool CameraDevice::hasAccelerometer() const {
+  return device_->isPropertySupported(openni2_plugin::kAcceleration);
+}
+
+std::optional<openni2_plugin::Acceleration> CameraDevice::acceleration() const {
+  openni2_plugin::Acceleration acceleration{};
+  const auto status = device_->getProperty(openni2_plugin::kAcceleration, &acceleration);
+  return status == openni::STATUS_OK ? std::make_optional(acceleration) : std::nullopt;
 }
 
 bool CameraDevice::canRegister() const {
@@ -68,11 +79,15 @@ bool CameraDevice::canRegister() const {
 }
 
 std::string CameraDevice::refusal(const CameraSettings& settings) const {
+  if (settings.raw_disparity && has(StreamKind::kDepth) &&
+      stream(StreamKind::kDepth).modes(true).empty()) {
+    return "raw_disparity: the camera streams depth in millimetres only";
+  }
   for (const StreamKind kind : kAllStreams) {
-    const VideoMode& mode = settings.mode(kind);
-    if (!has(kind) || hasMode(kind, mode)) continue;
-    return std::string(toString(kind)) + "_mode: the camera does not have " + toString(mode) +
-           ", but " + toString(stream(kind).modes());
+    if (!has(kind) || hasMode(kind, settings)) continue;
+    const bool raw = kind == StreamKind::kDepth && settings.raw_disparity;
+    return std::string(toString(kind)) + "_mode: the camera does not have " +
+           toString(settings.mode(kind)) + ", but " + toString(stream(kind).modes(raw));
   }
   if (settings.depth_registration && !canRegister()) {
     return "depth_registration: the camera cannot register depth to colour";
@@ -81,8 +96,10 @@ std::string CameraDevice::refusal(const CameraSettings& settings) const {
 }
 
 CameraSettings CameraDevice::possible(CameraSettings settings) const {
+  settings.raw_disparity = settings.raw_disparity && has(StreamKind::kDepth) &&
+                           !stream(StreamKind::kDepth).modes(true).empty();
   for (const StreamKind kind : kAllStreams) {
-    if (has(kind) && !hasMode(kind, settings.mode(kind))) {
+    if (has(kind) && !hasMode(kind, settings)) {
       settings.mode(kind) = stream(kind).mode();
     }
   }
@@ -105,7 +122,8 @@ void CameraDevice::apply(const CameraSettings& settings) {
 
 void CameraDevice::start(StreamKind kind, const CameraSettings& settings) {
   const VideoMode mode = isRecording() ? stream(kind).mode() : settings.mode(kind);
-  stream(kind).start(mode, kind == StreamKind::kDepth && settings.depth_registration);
+  const bool depth = kind == StreamKind::kDepth;
+  stream(kind).start(mode, depth && settings.depth_registration, depth && settings.raw_disparity);
 }
 
 }  // namespace dominant_plane_detection

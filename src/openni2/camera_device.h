@@ -4,11 +4,13 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "openni2/runtime.h"
 #include "openni2/sensor_stream.h"
+#include "openni2_plugin/accelerometer.h"
 
 namespace dominant_plane_detection {
 
@@ -18,6 +20,7 @@ struct CameraSettings {
   VideoMode rgb_mode{640, 480, 30};
   VideoMode ir_mode{640, 480, 30};
   bool depth_registration = false;  ///< depth as seen from the colour camera
+  bool raw_disparity = false;       ///< depth as the sensor's raw disparity
   bool auto_exposure = true;        ///< of the colour camera
   bool auto_white_balance = true;   ///< of the colour camera
   bool repeat = true;               ///< a recording begins again at its end
@@ -25,8 +28,8 @@ struct CameraSettings {
   bool operator==(const CameraSettings& other) const {
     return depth_mode == other.depth_mode && rgb_mode == other.rgb_mode &&
            ir_mode == other.ir_mode && depth_registration == other.depth_registration &&
-           auto_exposure == other.auto_exposure && auto_white_balance == other.auto_white_balance &&
-           repeat == other.repeat;
+           raw_disparity == other.raw_disparity && auto_exposure == other.auto_exposure &&
+           auto_white_balance == other.auto_white_balance && repeat == other.repeat;
   }
   const VideoMode& mode(StreamKind kind) const {
     if (kind == StreamKind::kDepth) return depth_mode;
@@ -58,19 +61,24 @@ class CameraDevice {
   SensorStream& stream(StreamKind kind) { return *at(kind); }
   const SensorStream& stream(StreamKind kind) const { return *at(kind); }
 
+  bool hasAccelerometer() const;
+  /// Asks the device.
+  /// @return nothing when it does not answer.
+  std::optional<openni2_plugin::Acceleration> acceleration() const;
+
   /// @return why the camera cannot do what is asked, with what it can; empty when it can.
   std::string refusal(const CameraSettings& settings) const;
   /// @return the settings with what the camera cannot do replaced by what it does by itself.
   CameraSettings possible(CameraSettings settings) const;
   /// Everything but the modes, which `start` sets.
-  /// @pre the streams have been stopped where `depth_registration` changes.
+  /// @pre the depth stream has been stopped where `depth_registration` changes.
   void apply(const CameraSettings& settings);
   /// @throw std::runtime_error with the device's reason.
   void start(StreamKind kind, const CameraSettings& settings);
 
  private:
   void deliverFrames();
-  bool hasMode(StreamKind kind, const VideoMode& mode) const;
+  bool hasMode(StreamKind kind, const CameraSettings& settings) const;
   bool canRegister() const;
   const std::unique_ptr<SensorStream>& at(StreamKind kind) const {
     return streams_[static_cast<int>(kind)];

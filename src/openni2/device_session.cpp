@@ -14,6 +14,7 @@ constexpr double kShortestBackOff = 0.25;  // [s]
 constexpr double kLongestBackOff = 5.0;    // [s]
 constexpr double kHealthy = 5.0;           // [s] a camera that stayed so long gets a fresh start
 constexpr double kStep = 0.1;              // [s] between looks at the streams
+constexpr double kReading = 1.0 / 30.0;    // [s] between readings of the accelerometer
 constexpr int kRestarts = 3;               // [#] of a silent stream until the camera is reopened
 
 std::chrono::steady_clock::duration seconds(double value) {
@@ -46,6 +47,13 @@ DeviceSession::~DeviceSession() {
 void DeviceSession::want(StreamKind kind, bool wanted) {
   const std::lock_guard<std::mutex> lock(mutex_);
   wanted_[static_cast<std::size_t>(kind)] = wanted;
+  poked_ = true;
+  changed_.notify_all();
+}
+
+void DeviceSession::wantAcceleration(bool wanted) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  acceleration_wanted_ = wanted;
   poked_ = true;
   changed_.notify_all();
 }
@@ -87,7 +95,7 @@ void DeviceSession::run() {
       disconnect(error.what());
     }
     lock.lock();
-    changed_.wait_for(lock, seconds(kStep), [this] { return ending_ || poked_ || change_; });
+    changed_.wait_for(lock, seconds(pause()), [this] { return ending_ || poked_ || change_; });
   }
   if (change_) change_->answer.set_value("the driver is being unloaded");
   lock.unlock();
@@ -109,6 +117,19 @@ void DeviceSession::step() {
   if (!camera_) return;
   startAndStop();
   watch();
+  if (camera_) readAcceleration();
+}
+
+double DeviceSession::pause() const { return acceleration_wanted_ ? kReading : kStep; }
+
+void DeviceSession::readAcceleration() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!acceleration_wanted_) return;
+  }
+  if (!camera_->hasAccelerometer()) return;
+  const auto acceleration = camera_->acceleration();
+  if (acceleration) callbacks_.acceleration(*acceleration);
 }
 
 void DeviceSession::search() {
@@ -222,17 +243,19 @@ std::string DeviceSession::changeTo(const CameraSettings& settings) {
   if (!refusal.empty()) return refusal;
   wish_ = settings;
   const CameraSettings old = std::exchange(settings_, settings);
-  const bool registration = old.depth_registration != settings.depth_registration;
+  const bool other_depth = old.depth_registration != settings.depth_registration ||
+                           old.raw_disparity != settings.raw_disparity;
+  const auto other = [&](StreamKind kind) {
+    return !(old.mode(kind) == settings.mode(kind)) || (other_depth && kind == StreamKind::kDepth);
+  };
   for (const StreamKind kind : kAllStreams) {
-    if (!camera_->has(kind)) continue;
-    const bool mode = !(old.mode(kind) == settings.mode(kind));
-    if (mode || (registration && kind == StreamKind::kDepth)) camera_->stream(kind).stop();
+    if (camera_->has(kind) && other(kind)) camera_->stream(kind).stop();
   }
   camera_->apply(settings);
   startAndStop();
   for (const StreamKind kind : kAllStreams) {
     const bool failed = camera_->has(kind) && wanted(kind) && !camera_->stream(kind).running();
-    if (!failed || old.mode(kind) == settings.mode(kind)) continue;
+    if (!failed || !other(kind)) continue;
     wish_ = settings_ = old;
     camera_->apply(old);
     return said_of_stream_[static_cast<std::size_t>(kind)];

@@ -40,6 +40,8 @@ class DeviceSession {
     CameraDevice::FrameCallback frame;
     /// In the session's thread, before the first frame: the camera may be another one now.
     std::function<void(const CameraDevice&)> opened;
+    /// In the session's thread, while it is wanted and the camera has an accelerometer.
+    std::function<void(const openni2_plugin::Acceleration&)> acceleration;
   };
 
   /// @param device_id see `chooseCamera`.
@@ -53,6 +55,8 @@ class DeviceSession {
 
   /// Somebody wants a stream, or nobody any more. Returns at once.
   void want(StreamKind kind, bool wanted);
+  /// The same for readings of the accelerometer, thirty a second where the camera is so fast.
+  void wantAcceleration(bool wanted);
   /// Waits until the camera has followed, or refused.
   /// @return why the settings were refused and the old ones stay; empty when they hold. Without a
   /// camera they hold until one comes.
@@ -78,6 +82,8 @@ class DeviceSession {
   void startAndStop();
   void startWanted(StreamKind kind);
   void watch();
+  void readAcceleration();
+  double pause() const;
   void onDeviceEvent(const std::string& gone);
   void report(SessionState state, const std::string& text);
   bool wanted(StreamKind kind) const;
@@ -109,6 +115,7 @@ class DeviceSession {
   Steady::time_point next_search_;
   Steady::time_point earliest_search_;
   std::array<bool, kStreamKinds> wanted_{};
+  bool acceleration_wanted_ = false;
   double patience_;
   std::optional<Change> change_;
   SessionStatus status_;

@@ -22,6 +22,7 @@ std::string encoding(openni::PixelFormat format) {
   namespace encodings = sensor_msgs::image_encodings;
   switch (format) {
     case openni::PIXEL_FORMAT_DEPTH_1_MM:
+    case openni::PIXEL_FORMAT_SHIFT_9_2:
       return encodings::TYPE_16UC1;
     case openni::PIXEL_FORMAT_RGB888:
       return encodings::RGB8;
@@ -32,6 +33,10 @@ std::string encoding(openni::PixelFormat format) {
     default:
       return "";
   }
+}
+
+bool isWanted(openni::PixelFormat format, bool raw) {
+  return !encoding(format).empty() && raw == (format == openni::PIXEL_FORMAT_SHIFT_9_2);
 }
 
 VideoMode toMode(const openni::VideoMode& mode) {
@@ -91,12 +96,12 @@ SensorStream::~SensorStream() {
   if (!taken_back || allocator_->pool.lent()) static_cast<void>(allocator_.release());
 }
 
-std::vector<VideoMode> SensorStream::modes() const {
+std::vector<VideoMode> SensorStream::modes(bool raw) const {
   std::vector<VideoMode> modes;
   const auto& infos = stream_.getSensorInfo().getSupportedVideoModes();
   for (int i = 0; i < infos.getSize(); ++i) {
     const VideoMode mode = toMode(infos[i]);
-    if (encoding(infos[i].getPixelFormat()).empty()) continue;
+    if (!isWanted(infos[i].getPixelFormat(), raw)) continue;
     if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
   }
   return modes;
@@ -108,20 +113,21 @@ double SensorStream::horizontalFieldOfView() const {
   return static_cast<double>(stream_.getHorizontalFieldOfView());
 }
 
-void SensorStream::setMode(const VideoMode& mode) {
+void SensorStream::setMode(const VideoMode& mode, bool raw) {
   const auto current = stream_.getVideoMode();
-  if (toMode(current) == mode && !encoding(current.getPixelFormat()).empty()) return;
+  if (toMode(current) == mode && isWanted(current.getPixelFormat(), raw)) return;
   const auto& infos = stream_.getSensorInfo().getSupportedVideoModes();
   for (int i = 0; i < infos.getSize(); ++i) {
-    if (!(toMode(infos[i]) == mode) || encoding(infos[i].getPixelFormat()).empty()) continue;
+    if (!(toMode(infos[i]) == mode) || !isWanted(infos[i].getPixelFormat(), raw)) continue;
     if (stream_.setVideoMode(infos[i]) == openni::STATUS_OK) return;
     throw std::runtime_error(toString(mode) + " is refused: " + lastOpenNi2Error());
   }
-  throw std::runtime_error("there is no mode " + toString(mode) + ", but " + toString(modes()));
+  throw std::runtime_error("there is no mode " + toString(mode) + (raw ? " with" : " without") +
+                           " raw disparity, but " + toString(modes(raw)));
 }
 
-void SensorStream::start(const VideoMode& mode, bool registered) {
-  setMode(mode);
+void SensorStream::start(const VideoMode& mode, bool registered, bool raw) {
+  setMode(mode, raw);
   registered_ = registered;
   last_sign_ = steadyNanoseconds();
   heard_ = false;
@@ -164,6 +170,7 @@ void SensorStream::deliver() {
   sensor_frame.number = frame.getFrameIndex();
   sensor_frame.rate = frame.getVideoMode().getFps();
   sensor_frame.registered = registered_;
+  sensor_frame.raw = frame.getVideoMode().getPixelFormat() == openni::PIXEL_FORMAT_SHIFT_9_2;
   frame.release();  // the message keeps the memory
   callback_(sensor_frame);
 }

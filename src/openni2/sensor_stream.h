@@ -30,6 +30,7 @@ struct SensorFrame {
   int number = 0;                 ///< counts what the device sent, lost or not
   int rate = 0;                   ///< [1/s] of the stream's mode
   bool registered = false;        ///< depth as seen from the colour camera
+  bool raw = false;               ///< depth as raw disparity instead of millimetres
 };
 
 /// One sensor of an open device. Frames are messages whose memory the device's driver has written.
@@ -49,8 +50,9 @@ class SensorStream {
   SensorStream(const SensorStream&) = delete;
   SensorStream& operator=(const SensorStream&) = delete;
 
-  /// @return the modes with 16-bit millimetres, 8-bit RGB or grey.
-  std::vector<VideoMode> modes() const;
+  /// @return the modes with 16-bit millimetres, 8-bit RGB or grey; those with raw disparity instead
+  /// with `raw`, none but for depth.
+  std::vector<VideoMode> modes(bool raw = false) const;
   /// @return the mode it is in; a recording knows no other.
   VideoMode mode() const;
   /// @return [rad] as the device tells, 0 where it does not.
@@ -58,8 +60,9 @@ class SensorStream {
 
   /// @param mode one of `modes()`.
   /// @param registered of the frames to come.
+  /// @param raw disparity instead of millimetres.
   /// @throw std::runtime_error with the device's reason.
-  void start(const VideoMode& mode, bool registered);
+  void start(const VideoMode& mode, bool registered, bool raw);
   /// Waits for a running callback.
   void stop();
   /// Hands the newest frame to the callback, if there is one and the stream runs.
@@ -76,7 +79,7 @@ class SensorStream {
  private:
   class Allocator;
 
-  void setMode(const VideoMode& mode);
+  void setMode(const VideoMode& mode, bool raw);
   /// @return false when there is no frame after all.
   bool read(openni::VideoFrameRef& frame);
   sensor_msgs::ImagePtr message(const openni::VideoFrameRef& frame);

@@ -1,5 +1,7 @@
 #include "ros/driver_outputs.h"
 
+#include <sensor_msgs/Imu.h>
+
 #include <boost/make_shared.hpp>
 
 #include "ros/topic_names.h"
@@ -8,6 +10,8 @@ namespace dominant_plane_detection {
 namespace {
 
 constexpr std::uint32_t kQueue = 1;
+// [m/s^2] A Kinect's accelerometer tells the vertical to one degree (Kinect for Windows SDK).
+constexpr double kAccelerationSigma = 0.17;
 
 }  // namespace
 
@@ -24,6 +28,10 @@ void DriverOutputs::advertise(const ros::NodeHandle& node, const DriverNames& na
     listeners_changed();
   };
   image_transport::ImageTransport transport(node);
+  ros::NodeHandle plain = node;
+  disparity_ = plain.advertise<sensor_msgs::Image>(topics::kRawDisparity, kQueue, info_changed,
+                                                   info_changed);
+  imu_ = plain.advertise<sensor_msgs::Imu>(topics::kImu, kQueue, info_changed, info_changed);
   const auto advertise = [&](const char* topic) {
     return transport.advertiseCamera(topic, kQueue, image_changed, image_changed, info_changed,
                                      info_changed);
@@ -41,11 +49,14 @@ void DriverOutputs::advertise(const ros::NodeHandle& node, const DriverNames& na
 void DriverOutputs::shutdown() {
   for (auto& publisher : streams_) publisher.shutdown();
   registered_.shutdown();
+  disparity_.shutdown();
+  imu_.shutdown();
 }
 
 bool DriverOutputs::wants(StreamKind kind) const {
   const std::uint32_t listeners = streams_[static_cast<int>(kind)].getNumSubscribers();
-  return listeners > 0 || (kind == StreamKind::kDepth && registered_.getNumSubscribers() > 0);
+  if (listeners > 0 || kind != StreamKind::kDepth) return listeners > 0;
+  return registered_.getNumSubscribers() > 0 || wantsRawDisparity();
 }
 
 void DriverOutputs::setCamera(const CameraDevice& camera) {
@@ -66,6 +77,29 @@ void DriverOutputs::publish(StreamKind kind, const SensorFrame& frame, const ros
   info->header = image.header;
   const auto& publisher = frame.registered ? registered_ : streams_[static_cast<int>(kind)];
   publisher.publish(frame.image, info);
+}
+
+void DriverOutputs::publishRawDisparity(const sensor_msgs::Image& raw, const ros::Time& stamp) {
+  const auto copy = boost::make_shared<sensor_msgs::Image>(raw);
+  copy->header.stamp = stamp;
+  copy->header.frame_id = names_.depth_frame_id;
+  disparity_.publish(copy);
+}
+
+void DriverOutputs::publish(const openni2_plugin::Acceleration& acceleration,
+                            const ros::Time& stamp) {
+  const auto imu = boost::make_shared<sensor_msgs::Imu>();
+  imu->header.stamp = stamp;
+  imu->header.frame_id = names_.depth_frame_id;
+  imu->orientation_covariance[0] = -1.0;
+  imu->angular_velocity_covariance[0] = -1.0;
+  imu->linear_acceleration.x = acceleration.x;
+  imu->linear_acceleration.y = acceleration.y;
+  imu->linear_acceleration.z = acceleration.z;
+  for (const std::size_t i : {0, 4, 8}) {
+    imu->linear_acceleration_covariance[i] = kAccelerationSigma * kAccelerationSigma;
+  }
+  imu_.publish(imu);
 }
 
 }  // namespace dominant_plane_detection

@@ -33,12 +33,18 @@ class DriverOutputs {
 
   /// @return whether somebody listens to the images of a stream, on any topic.
   bool wants(StreamKind kind) const;
+  bool wantsImu() const { return imu_.getNumSubscribers() > 0; }
+  bool wantsRawDisparity() const { return disparity_.getNumSubscribers() > 0; }
 
   /// Another camera is open.
   void setCamera(const CameraDevice& camera);
 
   /// Publishes without a copy: the message must not be touched any more.
   void publish(StreamKind kind, const SensorFrame& frame, const ros::Time& stamp);
+  /// Publishes a copy.
+  void publishRawDisparity(const sensor_msgs::Image& raw, const ros::Time& stamp);
+  /// REP 145: what is not measured is marked so.
+  void publish(const openni2_plugin::Acceleration& acceleration, const ros::Time& stamp);
 
  private:
   CameraCalibration& calibration(StreamKind kind) { return *calibrations_[static_cast<int>(kind)]; }
@@ -47,6 +53,8 @@ class DriverOutputs {
   std::unique_ptr<CameraCalibration> calibrations_[kStreamKinds];
   image_transport::CameraPublisher streams_[kStreamKinds];
   image_transport::CameraPublisher registered_;
+  ros::Publisher disparity_;
+  ros::Publisher imu_;
 };
 
 }  // namespace dominant_plane_detection

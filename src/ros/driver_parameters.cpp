@@ -15,7 +15,13 @@ void parseValue(const ParameterInfo& info, const std::string& text, VideoMode& v
 }
 
 std::vector<std::string> findErrors(const DriverParameters& parameters) {
-  return findRangeErrors(parameters);
+  std::vector<std::string> errors = findRangeErrors(parameters);
+  if (parameters.camera.raw_disparity && parameters.camera.depth_registration) {
+    errors.emplace_back(
+        "raw_disparity and depth_registration: expected one of them at most, a camera registers "
+        "its own depth only");
+  }
+  return errors;
 }
 
 void setParameter(DriverParameters& parameters, const std::string& name, const std::string& value) {

@@ -31,6 +31,9 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
   visit(Info{"depth_registration", "-", 0, 1,
              "depth as the colour camera would see it, on depth_registered instead of depth"},
         p.camera.depth_registration);
+  visit(Info{"raw_disparity", "-", 0, 1,
+             "depth from the sensor's raw disparity by depth_calibration, not the camera's own"},
+        p.camera.raw_disparity);
   visit(Info{"auto_exposure", "-", 0, 1, "the colour camera chooses its exposure"},
         p.camera.auto_exposure);
   visit(Info{"auto_white_balance", "-", 0, 1, "the colour camera chooses its white balance"},

@@ -7,6 +7,8 @@ constexpr const char* kDepth = "depth/image_raw";
 constexpr const char* kRegisteredDepth = "depth_registered/image_raw";
 constexpr const char* kColour = "rgb/image_raw";
 constexpr const char* kInfrared = "ir/image_raw";
+constexpr const char* kRawDisparity = "depth/disparity_raw";
+constexpr const char* kImu = "imu/data";
 
 // More inputs of the detection, relative to its namespace.
 constexpr const char* kPoints = "points";

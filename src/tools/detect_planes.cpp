@@ -6,15 +6,14 @@
 #include <chrono>
 #include <iostream>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "inputs.h"
 #include "result_writer.h"
+#include "source_arguments.h"
 #include "tool_main.h"
-#include "yaml_files.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -31,83 +30,15 @@ constexpr const char* kDescription =
     "r\n";
 
 struct Options {
-  std::vector<std::string> inputs;
+  SourceArguments source;
   std::string output;
-  std::string topic;
-  std::vector<double> camera;
-  std::string camera_info;
-  double depth_scale = 1000.0;
-  std::string params;
-  std::vector<std::string> settings;
-  std::vector<double> range;
-  std::string algorithm;
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("inputs", options.inputs, "PNG files, folders of PNG files, bags, .oni recordings")
-      ->required()
-      ->type_name("INPUT");
+  declareSource(app, options.source, true);
   app.add_option("--output", options.output, "folder for the results, made where it is missing")
       ->required()
       ->type_name("DIR");
-  app.add_option("--topic", options.topic, "depth topic, for a bag that has several");
-  app.add_option("--camera", options.camera, "pinhole of PNG images [px]; overrides a bag's")
-      ->delimiter(',')
-      ->expected(4)
-      ->type_name("FX,FY,CX,CY");
-  app.add_option("--camera-info", options.camera_info, "calibration file instead of --camera")
-      ->type_name("FILE")
-      ->excludes("--camera");
-  app.add_option("--depth-scale", options.depth_scale, "units per metre of 16-bit PNG images")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--params", options.params, "detection parameters, the nodelet's YAML")
-      ->type_name("FILE");
-  app.add_option("--set", options.settings, "one detection parameter; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("NAME=VALUE");
-  app.add_option("--range", options.range, "trusted depths [m]")
-      ->delimiter(',')
-      ->expected(2)
-      ->type_name("MIN,MAX");
-  app.add_option("--algorithm", options.algorithm, "grid (default) or kdtree")
-      ->check(CLI::IsMember({"grid", "kdtree"}));
-}
-
-/// Later ones win: file, --set, --range, --algorithm.
-Parameters readParameters(const Options& options) {
-  Parameters parameters;
-  if (!options.params.empty()) loadParameters(options.params, parameters);
-  for (const std::string& setting : options.settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos) {
-      throw std::invalid_argument("--set: expected NAME=VALUE, got '" + setting + "'");
-    }
-    setParameter(parameters, setting.substr(0, equals), setting.substr(equals + 1));
-  }
-  if (!options.range.empty()) {
-    parameters.range_min = options.range[0];
-    parameters.range_max = options.range[1];
-  }
-  if (!options.algorithm.empty()) setParameter(parameters, "algorithm", options.algorithm);
-  return parameters;
-}
-
-SourceOptions readSourceOptions(const Options& options) {
-  SourceOptions source;
-  source.units_per_metre = options.depth_scale;
-  source.topic = options.topic;
-  if (!options.camera_info.empty()) {
-    source.camera = loadCamera(options.camera_info);
-  } else if (!options.camera.empty()) {
-    CameraModel camera;  // takes the size of each image
-    camera.fx = options.camera[0];
-    camera.fy = options.camera[1];
-    camera.cx = options.camera[2];
-    camera.cy = options.camera[3];
-    source.camera = camera;
-  }
-  return source;
 }
 
 /// Prints errors at once, or after the progress bar where there is one, and remembers that there
@@ -161,8 +92,8 @@ void process(FrameSource& source, DominantPlaneDetector& detector, ResultWriter&
 }
 
 int run(const Options& options) {
-  DominantPlaneDetector detector(readParameters(options));
-  const Inputs inputs = openInputs(options.inputs, readSourceOptions(options));
+  DominantPlaneDetector detector(options.source.readParameters());
+  const Inputs inputs = openInputs(options.source.inputs, options.source.readSourceOptions());
   ResultWriter writer(options.output);
   bool failed = false;
   {

@@ -43,6 +43,7 @@ struct SourceOptions {
   std::optional<CameraModel> camera;  ///< its size is that of each image where it is 0
   double units_per_metre = 1000.0;    ///< of 16-bit images
   std::string topic;                  ///< depth topic of bags; empty: the only one
+  bool raw_disparity = false;         ///< images are raw disparity, not depth
 };
 
 /// 16-bit PNG files.

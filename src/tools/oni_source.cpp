@@ -6,6 +6,7 @@
 
 #include "frame_source.h"
 #include "openni2/runtime.h"
+#include "openni_frames.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -37,13 +38,7 @@ class OniSource : public FrameSource {
       throw std::runtime_error("there is no depth stream in it");
     }
     frames_ = static_cast<std::size_t>(std::max(playback->getNumberOfFrames(stream_), 0));
-    const auto format = stream_.getVideoMode().getPixelFormat();
-    if (format == openni::PIXEL_FORMAT_DEPTH_100_UM) {
-      metres_per_unit_ = 0.1F * kMillimetre;
-    } else if (format != openni::PIXEL_FORMAT_DEPTH_1_MM) {
-      throw std::runtime_error("expected depth in millimetres, got pixel format " +
-                               std::to_string(format));
-    }
+    readFormat(options.raw_disparity);
     if (stream_.start() != openni::STATUS_OK) throw std::runtime_error(lastOpenNi2Error());
   }
   ~OniSource() override {
@@ -58,10 +53,7 @@ class OniSource : public FrameSource {
 
   std::optional<Frame> next() override {
     if (read_ >= frames_) return std::nullopt;
-    openni::VideoStream* streams[] = {&stream_};
-    int ready = 0;
-    if (openni::OpenNI::waitForAnyStream(streams, 1, &ready, kEnd) != openni::STATUS_OK ||
-        stream_.readFrame(&frame_) != openni::STATUS_OK) {
+    if (!readFrame(stream_, kEnd, frame_)) {
       const std::size_t missing = frames_ - read_;
       read_ = frames_;
       throw UnreadableFrame(file_ + ": expected " + std::to_string(frames_) + " images, the last " +
@@ -76,12 +68,21 @@ class OniSource : public FrameSource {
   }
 
  private:
+  void readFormat(bool raw) {
+    const auto format = stream_.getVideoMode().getPixelFormat();
+    const bool is_raw = format == openni::PIXEL_FORMAT_SHIFT_9_2;
+    if (raw ? is_raw : format == openni::PIXEL_FORMAT_DEPTH_1_MM) return;
+    if (!raw && format == openni::PIXEL_FORMAT_DEPTH_100_UM) {
+      metres_per_unit_ = 0.1F * kMillimetre;
+      return;
+    }
+    const std::string got = is_raw ? "raw disparity" : "pixel format " + std::to_string(format);
+    throw std::runtime_error(std::string("expected ") +
+                             (raw ? "raw disparity" : "depth in millimetres") + ", got " + got);
+  }
+
   DepthView view() const {
-    DepthView view;
-    view.data = frame_.getData();
-    view.width = frame_.getWidth();
-    view.height = frame_.getHeight();
-    view.step = static_cast<std::size_t>(frame_.getStrideInBytes());
+    DepthView view = viewOf(frame_);
     view.metres_per_unit = metres_per_unit_;
     return view;
   }

@@ -44,6 +44,13 @@ double SceneCamera::sceneTime(double time) const {
   return phase <= duration ? phase : 2.0 * duration - phase;
 }
 
+openni2_plugin::Acceleration SceneCamera::acceleration(double scene_time) const {
+  const Eigen::Vector3d up =
+      pose(scene_time, false).linear().transpose() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d felt = openni2_plugin::kStandardGravity * up;
+  return {felt.x(), felt.y(), felt.z()};
+}
+
 void SceneCamera::depth(double scene_time, bool from_colour, int width, int height,
                         std::uint32_t frame, std::uint16_t* readings) const {
   const Rendering rendering =

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <utility>
 
+#include "openni2_plugin/accelerometer.h"
 #include "synthetic/renderer.h"
 #include "synthetic/scene.h"
 
@@ -24,6 +25,9 @@ class SceneCamera {
   /// @param time [s] since the camera began to move.
   /// @return [s] on the scene's camera path.
   double sceneTime(double time) const;
+
+  /// @return what an accelerometer in the depth camera shows, which feels gravity alone.
+  openni2_plugin::Acceleration acceleration(double scene_time) const;
 
   /// @param from_colour whether it is seen from the colour camera, as registered depth is.
   /// @param readings [mm], 0 for none; width * height values.

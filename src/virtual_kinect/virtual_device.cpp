@@ -1,12 +1,16 @@
 #include "virtual_kinect/virtual_device.h"
 
 #include <algorithm>
-#include <cstring>
 
-#include "virtual_kinect/property.h"
+#include "openni2_plugin/property.h"
 #include "virtual_kinect/virtual_stream.h"
 
 namespace dominant_plane_detection::virtual_kinect {
+
+using openni2_plugin::giveProperty;
+using openni2_plugin::giveText;
+using openni2_plugin::takeProperty;
+
 namespace {
 
 constexpr std::size_t kRecords = 256;
@@ -60,19 +64,16 @@ void VirtualDevice::destroyStream(oni::driver::StreamBase* stream) { delete stre
 
 OniStatus VirtualDevice::getProperty(int id, void* data, int* size) {
   switch (id) {
-    case ONI_DEVICE_PROPERTY_SERIAL_NUMBER: {
-      const int needed = static_cast<int>(serial_.size()) + 1;
-      if (*size < needed) return ONI_STATUS_BAD_PARAMETER;
-      std::memcpy(data, serial_.c_str(), static_cast<std::size_t>(needed));
-      *size = needed;
-      return ONI_STATUS_OK;
-    }
+    case ONI_DEVICE_PROPERTY_SERIAL_NUMBER:
+      return giveText(serial_, data, size);
     case ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION:
       return giveProperty(
           registered_ ? ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR : ONI_IMAGE_REGISTRATION_OFF, data,
           size);
     case kFrameRecords:
       return copyRecords(data, size);
+    case openni2_plugin::kAcceleration:
+      return giveProperty(camera_.acceleration(sceneTime(DeviceClock::Steady::now())), data, size);
     default:
       return ONI_STATUS_NOT_SUPPORTED;
   }
@@ -88,7 +89,7 @@ OniStatus VirtualDevice::setProperty(int id, const void* data, int size) {
 
 OniBool VirtualDevice::isPropertySupported(int id) {
   return id == ONI_DEVICE_PROPERTY_SERIAL_NUMBER || id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION ||
-         id == kFrameRecords;
+         id == kFrameRecords || id == openni2_plugin::kAcceleration;
 }
 
 OniStatus VirtualDevice::invoke(int command, void* data, int size) {

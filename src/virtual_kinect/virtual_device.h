@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "openni2_plugin/driver_api.h"
 #include "virtual_kinect/device_clock.h"
-#include "virtual_kinect/openni2_driver_api.h"
 #include "virtual_kinect/scene_camera.h"
 #include "virtual_kinect/virtual_kinect.h"
 

@@ -4,17 +4,20 @@
 
 #include <cmath>
 
-#include "virtual_kinect/property.h"
+#include "openni2_plugin/modes.h"
+#include "openni2_plugin/property.h"
 
 namespace dominant_plane_detection::virtual_kinect {
+
+using openni2_plugin::bytesPerPixel;
+using openni2_plugin::describeFrame;
+using openni2_plugin::giveProperty;
+using openni2_plugin::sameMode;
+using openni2_plugin::takeProperty;
+
 namespace {
 
 constexpr int kMaxDepth = 10000;  // [mm]
-
-bool sameMode(const OniVideoMode& a, const OniVideoMode& b) {
-  return a.pixelFormat == b.pixelFormat && a.resolutionX == b.resolutionX &&
-         a.resolutionY == b.resolutionY && a.fps == b.fps;
-}
 
 template <typename Clock>
 std::int64_t nanoseconds() {
@@ -66,7 +69,8 @@ void VirtualStream::run() {
     render(record.scene_time, record.frame_number, *frame);
     const bool running = sleepUntil(due);
     if (running && stalls == device_.stalls() && !device_.gone()) {
-      describe(static_cast<int>(number), due, *frame);
+      describeFrame(sensor_, mode_, static_cast<int>(number),
+                    static_cast<std::uint64_t>(device_.clock().at(due)), *frame);
       record.timestamp = frame->timestamp;
       record.address = reinterpret_cast<std::uint64_t>(frame->data);
       record.raised = nanoseconds<Steady>();
@@ -103,19 +107,6 @@ void VirtualStream::render(double scene_time, std::uint32_t frame, OniFrame& to)
   }
 }
 
-void VirtualStream::describe(int index, Steady::time_point time, OniFrame& frame) const {
-  frame.sensorType = sensor_;
-  frame.timestamp = static_cast<std::uint64_t>(device_.clock().at(time));
-  frame.frameIndex = index;
-  frame.videoMode = mode_;
-  frame.width = mode_.resolutionX;
-  frame.height = mode_.resolutionY;
-  frame.stride = bytesPerPixel() * mode_.resolutionX;
-  frame.dataSize = frame.stride * mode_.resolutionY;
-  frame.croppingEnabled = FALSE;
-  frame.cropOriginX = frame.cropOriginY = 0;
-}
-
 OniStatus VirtualStream::getProperty(int id, void* data, int* size) {
   switch (id) {
     case ONI_STREAM_PROPERTY_VIDEO_MODE:
@@ -129,7 +120,7 @@ OniStatus VirtualStream::getProperty(int id, void* data, int* size) {
     case ONI_STREAM_PROPERTY_MIN_VALUE:
       return giveProperty(0, data, size);
     case ONI_STREAM_PROPERTY_STRIDE:
-      return giveProperty(bytesPerPixel() * mode_.resolutionX, data, size);
+      return giveProperty(bytesPerPixel(mode_.pixelFormat) * mode_.resolutionX, data, size);
     case ONI_STREAM_PROPERTY_CROPPING:
       // OpenNI2's player shows no frame of a recording that does not say how it is cropped.
       return giveProperty(OniCropping{}, data, size);
@@ -185,8 +176,6 @@ OniBool VirtualStream::isPropertySupported(int id) {
   return colour ? sensor_ == ONI_SENSOR_COLOR
                 : id >= ONI_STREAM_PROPERTY_CROPPING && id <= ONI_STREAM_PROPERTY_MIRRORING;
 }
-
-int VirtualStream::bytesPerPixel() const { return sensor_ == ONI_SENSOR_COLOR ? 3 : 2; }
 
 float VirtualStream::fieldOfView(bool vertical) const {
   const CameraModel camera = device_.camera().camera(mode_.resolutionX, mode_.resolutionY);

@@ -28,10 +28,8 @@ class VirtualStream : public oni::driver::StreamBase {
   /// @return false when the stream has been stopped meanwhile.
   bool sleepUntil(Steady::time_point time);
   void render(double scene_time, std::uint32_t frame, OniFrame& to) const;
-  void describe(int index, Steady::time_point time, OniFrame& frame) const;
   OniStatus setMode(const void* data, int size);
   OniStatus setSwitch(OniBool& value, const void* data, int size) const;
-  int bytesPerPixel() const;
   float fieldOfView(bool vertical) const;
 
   VirtualDevice& device_;

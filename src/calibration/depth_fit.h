@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "dominant_plane_detection/depth_calibration.h"
+
+namespace dominant_plane_detection {
+
+/// A distance that was measured, and what the sensor said.
+struct DepthPair {
+  double raw = 0.0;       ///< [-] raw disparity, a mean with a fraction mostly
+  double distance = 0.0;  ///< [m] along the optical axis
+  double sigma = 0.0;     ///< [m] standard deviation of the distance; 0: that of the options
+};
+
+struct DepthFitOptions {
+  DepthCalibration::Form form = DepthCalibration::Form::kReciprocal;
+  double distance_sigma = 0.002;  ///< [m] of the tape measure
+  double raw_sigma = 0.3;         ///< [-] of the raw value, most of it from its rounding
+  bool minimax = false;  ///< the largest error as small as can be, in sigmas, for a table without
+                         ///< noise, instead of least squares
+};
+
+struct DepthFit {
+  DepthCalibration calibration;
+  DepthCalibration standard_errors;  ///< of the constants, from the residuals' own size; 0 with
+                                     ///< `minimax`
+  std::vector<double> residuals;     ///< [m] fitted minus measured, of all pairs
+  std::vector<bool> outliers;        ///< pairs that were left out
+  double rms = 0.0;                  ///< [m] of those that were not
+  double worst = 0.0;                ///< [m] of those that were not
+};
+
+/// Fits one form of `DepthCalibration` to measured pairs, each weighted by the error of its
+/// distance: that of the tape and that of the raw value, which grows with the slope of the curve.
+/// Pairs beyond four standard deviations of the rest are left out.
+/// @throw std::invalid_argument that says what is wrong with the pairs: too few for the form's
+/// constants, values that cannot be, distances that do not grow with the raw value, or more than a
+/// quarter that do not fit.
+DepthFit fitDepth(const std::vector<DepthPair>& pairs, const DepthFitOptions& options);
+
+}  // namespace dominant_plane_detection

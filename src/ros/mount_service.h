@@ -1,0 +1,49 @@
+#pragma once
+
+#include <dominant_plane_detection/CalibrateMount.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+
+#include "calibration/mount_estimate.h"
+
+namespace dominant_plane_detection {
+
+CalibrateMount::Response toResponse(const Mount& mount);
+
+/// The service `calibrate_mount`. A call waits for images, in a thread of its own: the threads that
+/// bring them have to go on.
+class MountService {
+ public:
+  /// @param wish_changed called, in the service's thread, when detections begin or end to be
+  /// wanted.
+  MountService(const ros::NodeHandle& node, std::function<void()> wish_changed);
+  ~MountService();
+  /// Ends a running call, without a result, and takes no more.
+  void shutdown();
+
+  /// @return whether a call waits for detections.
+  bool wants() const;
+  void add(const Detection& detection);
+
+ private:
+  bool onCall(CalibrateMount::Request& request, CalibrateMount::Response& response);
+  MountEstimate collect(std::size_t frames);
+
+  std::function<void()> wish_changed_;
+  mutable std::mutex mutex_;  ///< of what follows
+  std::condition_variable changed_;
+  std::optional<MountEstimate> estimate_;  ///< while a call waits
+  bool ending_ = false;
+
+  ros::CallbackQueue queue_;
+  ros::ServiceServer server_;
+  ros::AsyncSpinner spinner_;
+};
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <OpenNI.h>
+
+#include "dominant_plane_detection/depth_image.h"
+
+namespace dominant_plane_detection {
+
+/// Waits for a frame: reading one that never comes would never return.
+/// @param patience [ms]
+/// @return false when there was none.
+inline bool readFrame(openni::VideoStream& stream, int patience, openni::VideoFrameRef& frame) {
+  openni::VideoStream* streams[] = {&stream};
+  int ready = 0;
+  return openni::OpenNI::waitForAnyStream(streams, 1, &ready, patience) == openni::STATUS_OK &&
+         stream.readFrame(&frame) == openni::STATUS_OK;
+}
+
+/// @return a frame's 16-bit pixels, in the frame's memory.
+inline DepthView viewOf(const openni::VideoFrameRef& frame) {
+  DepthView view;
+  view.data = frame.getData();
+  view.width = frame.getWidth();
+  view.height = frame.getHeight();
+  view.step = static_cast<std::size_t>(frame.getStrideInBytes());
+  return view;
+}
+
+}  // namespace dominant_plane_detection
