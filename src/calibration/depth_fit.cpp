@@ -237,25 +237,21 @@ void requireMonotonic(std::vector<DepthPair> pairs) {
       "; are the columns in the order raw,distance?");
 }
 
-/// Gives every pair its standard deviation.
-void weigh(std::vector<DepthPair>& pairs, const DepthFitOptions& options) {
-  // The slope is that of the sensor's own law, whatever form is asked for.
-  std::vector<DepthPair> equal = pairs;
-  for (DepthPair& p : equal) p.sigma = p.distance * p.distance;  // equal errors of the disparity
-  const std::vector<double> ones(pairs.size(), 1.0);
-  const DepthCalibration law =
-      toCalibration(Form::kReciprocal, reciprocalStarts(equal, ones).front().data());
+/// Gives every pair its standard deviation: that of the tape, and that of the raw value by the
+/// slope of the curve. Pairs that bring one of their own keep it.
+std::vector<DepthPair> weighed(std::vector<DepthPair> pairs, const DepthFitOptions& options,
+                               const DepthCalibration& curve) {
   for (DepthPair& p : pairs) {
     if (p.sigma > 0.0) continue;
-    const double slope = std::abs(law.b) * p.distance * p.distance;  // [m] a raw unit
+    const double slope = std::abs(curve.evaluate(p.raw + 0.5) - curve.evaluate(p.raw - 0.5));
     p.sigma = std::hypot(options.distance_sigma, slope * options.raw_sigma);
   }
+  return pairs;
 }
 
-/// Weights of 0 for outliers, 1 for the rest.
-std::vector<double> findInliers(Form form, const std::vector<DepthPair>& pairs) {
+/// A fit that a few pairs far off do not move: least absolute errors, by weights.
+DepthCalibration fitRobust(Form form, const std::vector<DepthPair>& pairs) {
   std::vector<double> weights(pairs.size(), 1.0);
-  // Least absolute errors, by weights, are not moved by a few pairs that are far off.
   DepthCalibration calibration = fitWeighted(form, pairs, weights);
   constexpr int kRounds = 20;
   for (int i = 0; i < kRounds; ++i) {
@@ -267,13 +263,51 @@ std::vector<double> findInliers(Form form, const std::vector<DepthPair>& pairs) 
     solve(form, pairs, weights, constants);
     calibration = toCalibration(form, constants.data());
   }
-  std::vector<double> sizes = errorsOf(calibration, pairs);
-  for (double& size : sizes) size = std::abs(size);
-  // Where errors are smaller than they are said to be, that is no reason to leave pairs out.
-  const double scale = std::max(kMadToSigma * median(sizes), 1.0);
-  for (std::size_t k = 0; k < sizes.size(); ++k) {
-    weights[k] = sizes[k] <= kOutlier * scale ? 1.0 : 0.0;
+  return calibration;
+}
+
+/// A robust fit, its pairs with the standard deviations that belong to it, and how large errors
+/// are.
+struct RobustFit {
+  DepthCalibration calibration;
+  std::vector<DepthPair> pairs;
+  std::vector<double> sizes;  ///< [-] of the errors, in standard deviations
+  double scale = 0.0;         ///< [-] robust standard deviation of the errors
+};
+
+RobustFit robustFit(Form form, const std::vector<DepthPair>& measured,
+                    const DepthFitOptions& options) {
+  RobustFit fit;
+  fit.pairs = measured;
+  for (DepthPair& p : fit.pairs) {
+    if (p.sigma <= 0.0) p.sigma = options.distance_sigma * (1.0 + p.distance * p.distance);
   }
+  constexpr int kRounds = 3;  // the slope of the curve changes little after the first
+  for (int i = 0; i < kRounds; ++i) {
+    fit.calibration = fitRobust(form, fit.pairs);
+    fit.pairs = weighed(measured, options, fit.calibration);
+  }
+  fit.sizes = errorsOf(fit.calibration, fit.pairs);
+  for (double& size : fit.sizes) size = std::abs(size);
+  // Where errors are smaller than they are said to be, that is no reason to leave pairs out.
+  fit.scale = std::max(kMadToSigma * median(fit.sizes), 1.0);
+  return fit;
+}
+
+/// Weights of 0 for outliers, 1 for the rest. An outlier is what neither form explains: where the
+/// form that is asked for does not describe the sensor, that is not the pairs' fault.
+std::vector<double> findInliers(const RobustFit& asked, const std::vector<DepthPair>& measured,
+                                const DepthFitOptions& options) {
+  RobustFit best = asked;
+  constexpr std::size_t kEnough = 10;
+  if (measured.size() >= kEnough) {
+    const bool exponential = options.form == Form::kExponential;
+    const RobustFit other =
+        robustFit(exponential ? Form::kReciprocal : Form::kExponential, measured, options);
+    if (median(other.sizes) < median(best.sizes)) best = other;
+  }
+  std::vector<double> weights;
+  for (const double size : best.sizes) weights.push_back(size <= kOutlier * best.scale ? 1.0 : 0.0);
   return weights;
 }
 
@@ -354,31 +388,32 @@ DepthFit fitDepth(const std::vector<DepthPair>& measured, const DepthFitOptions&
   requireValues(measured);
   requireEnough(measured, countConstants(options.form));
   requireMonotonic(measured);
-  std::vector<DepthPair> pairs = measured;
-  weigh(pairs, options);
-
   DepthFit fit;
+  const RobustFit robust = robustFit(options.form, measured, options);
+  const std::vector<DepthPair>& pairs = robust.pairs;
   std::vector<double> weights(pairs.size(), 1.0);
   if (options.minimax) {
     fit.calibration = fitMinimax(options.form, pairs);
     fit.standard_errors.form = options.form;
   } else {
-    weights = findInliers(options.form, pairs);
+    weights = findInliers(robust, measured, options);
     requireFew(pairs, weights);
     fit.calibration = fitWeighted(options.form, pairs, weights);
     fit.standard_errors = standardErrors(fit.calibration, pairs, weights);
   }
-  double squares = 0.0, count = 0.0;
+  double squares = 0.0, errors = 0.0, count = 0.0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const double residual = fit.calibration.evaluate(pairs[i].raw) - pairs[i].distance;
     fit.residuals.push_back(residual);
     fit.outliers.push_back(weights[i] == 0.0);
     if (weights[i] == 0.0) continue;
     squares += residual * residual;
+    errors += residual * residual / (pairs[i].sigma * pairs[i].sigma);
     count += 1.0;
     fit.worst = std::max(fit.worst, std::abs(residual));
   }
   fit.rms = std::sqrt(squares / count);
+  fit.sigmas = std::sqrt(errors / count);
   return fit;
 }
 

@@ -29,11 +29,13 @@ struct DepthFit {
   std::vector<bool> outliers;        ///< pairs that were left out
   double rms = 0.0;                  ///< [m] of those that were not
   double worst = 0.0;                ///< [m] of those that were not
+  double sigmas = 0.0;               ///< [-] the same root mean square in the standard deviations
+                                     ///< of the pairs: about 1 where the form describes them
 };
 
 /// Fits one form of `DepthCalibration` to measured pairs, each weighted by the error of its
 /// distance: that of the tape and that of the raw value, which grows with the slope of the curve.
-/// Pairs beyond four standard deviations of the rest are left out.
+/// Pairs that are off by more than four standard deviations of the rest are left out.
 /// @throw std::invalid_argument that says what is wrong with the pairs: too few for the form's
 /// constants, values that cannot be, distances that do not grow with the raw value, or more than a
 /// quarter that do not fit.

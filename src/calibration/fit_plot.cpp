@@ -39,7 +39,7 @@ void plotFit(const std::string& file, const std::vector<DepthPair>& pairs, const
     gnuplot << "set terminal pngcairo size 900,900 font 'Sans,12'\n"
             << "set output '" << file << "'\n"
             << "set multiplot layout 2,1\n"
-            << "set grid\nset key left top\nset xlabel 'raw depth value D'\n"
+            << "set lmargin 10\nset grid\nset key left top\nset xlabel 'raw depth value D'\n"
             << "set ylabel 'distance Z [m]'\n"
             << "plot '-' with lines lw 2 title '"
             << (exponential ? "Z = a exp(b D) + c exp(d D)" : "Z = 1 / (a + b D)") << "'"
@@ -49,8 +49,8 @@ void plotFit(const std::string& file, const std::vector<DepthPair>& pairs, const
     gnuplot.send1d(curveOf(pairs, fit.calibration));
     gnuplot.send1d(used);
     if (!left_out.empty()) gnuplot.send1d(left_out);
-    gnuplot << "set ylabel 'fitted minus measured [mm]'\nset xzeroaxis lw 2\n"
-            << "plot '-' with points pt 7 title 'residuals'\n";
+    gnuplot << "set ylabel 'fitted minus measured [mm]'\nunset key\nset xzeroaxis lw 2\n"
+            << "plot '-' with points pt 7\n";
     gnuplot.send1d(residuals);
     gnuplot << "unset multiplot\n";
   }

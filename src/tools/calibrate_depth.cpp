@@ -116,6 +116,11 @@ void print(const DepthFit& fit) {
   const auto left_out = std::count(fit.outliers.begin(), fit.outliers.end(), true);
   std::printf("residuals: %.1f mm root mean square, %.1f mm at most; %zu pairs, %td left out\n",
               1000.0 * fit.rms, 1000.0 * fit.worst, fit.outliers.size(), left_out);
+  constexpr double kPoor = 3.0;
+  if (fit.sigmas > kPoor) {
+    std::printf("that is %.1f times what tape and sensor explain: try the other form\n",
+                fit.sigmas);
+  }
 }
 
 void printLeftOut(const std::vector<DepthPair>& pairs, const DepthFit& fit) {

@@ -36,8 +36,7 @@ void FakenectSession::addColour(double time, const cv::Mat& rgb) {
 
 void FakenectSession::addAcceleration(double time, const Eigen::Vector3d& felt) {
   const auto counts = [](double acceleration) {
-    return static_cast<std::int16_t>(
-        std::lround(acceleration / 9.80665 * FREENECT_COUNTS_PER_G));
+    return static_cast<std::int16_t>(std::lround(acceleration / 9.80665 * FREENECT_COUNTS_PER_G));
   };
   freenect_raw_tilt_state state{};
   state.accelerometer_x = counts(felt.x());
@@ -46,15 +45,32 @@ void FakenectSession::addAcceleration(double time, const Eigen::Vector3d& felt) 
   write('a', time, "", &state, sizeof(state), "dump");
 }
 
+void FakenectSession::repeat(double period, int times) {
+  for (int k = 1; k <= times; ++k) {
+    for (const Entry& entry : entries_) {
+      const std::string copy = nameOf({entry.kind, entry.time + k * period, entry.ending});
+      std::filesystem::create_hard_link(folder_ / nameOf(entry), folder_ / copy);
+      list(copy);
+    }
+  }
+}
+
+std::string FakenectSession::nameOf(const Entry& entry) {
+  char name[64];
+  const auto ticks = static_cast<std::uint32_t>(static_cast<std::uint64_t>(entry.time * kTicks));
+  std::snprintf(name, sizeof(name), "%c-%f-%u.%s", entry.kind, entry.time, ticks,
+                entry.ending.c_str());
+  return name;
+}
+
 void FakenectSession::write(char kind, double time, const std::string& header, const void* data,
                             std::size_t bytes, const std::string& ending) {
-  char name[64];
-  const auto ticks = static_cast<std::uint32_t>(static_cast<std::uint64_t>(time * kTicks));
-  std::snprintf(name, sizeof(name), "%c-%f-%u.%s", kind, time, ticks, ending.c_str());
+  entries_.push_back({kind, time, ending});
+  const std::string name = nameOf(entries_.back());
   std::ofstream file(folder_ / name, std::ios::binary);
   file << header;
   file.write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
-  index_ << name << '\n' << std::flush;
+  list(name);
 }
 
 }  // namespace dominant_plane_detection

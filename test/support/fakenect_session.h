@@ -5,6 +5,7 @@
 #include <fstream>
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <vector>
 
 namespace dominant_plane_detection {
 
@@ -27,12 +28,25 @@ class FakenectSession {
   void addColour(double time, const cv::Mat& rgb);
   /// @param felt [m/s^2] in the Kinect's own axes: x to its left, y up, z where it looks.
   void addAcceleration(double time, const Eigen::Vector3d& felt);
+  /// Plays what there is again and again, without writing it again.
+  /// @param period [s] from one beginning to the next.
+  void repeat(double period, int times);
 
  private:
-  void write(char kind, double time, const std::string& header, const void* data,
-             std::size_t bytes, const std::string& ending);
+  void write(char kind, double time, const std::string& header, const void* data, std::size_t bytes,
+             const std::string& ending);
+
+  void list(const std::string& name) { index_ << name << '\n' << std::flush; }
+
+  struct Entry {
+    char kind;
+    double time;  ///< [s]
+    std::string ending;
+  };
+  static std::string nameOf(const Entry& entry);
 
   std::filesystem::path folder_;
+  std::vector<Entry> entries_;
   std::ofstream index_;
 };
 

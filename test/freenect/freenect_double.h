@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace freenect_double {
+
+// A libfreenect without USB, for what fakenect does not have: several Kinects with serial numbers,
+// plugging and unplugging, transfers that fail, infrared, registration, and exposure. A Kinect's
+// images are simple: raw disparity is the same in every pixel, the infrared image has each row's
+// number, the colour image its Kinect's colour.
+
+/// In [mm]: raw value plus this, by the table that the device itself has.
+constexpr int kTableOffset = 1000;
+/// [px] A registered pixel is seen so far to the right, wherever it is.
+constexpr int kRegistrationShift = 7;
+
+struct Kinect {
+  std::uint16_t raw = 700;     ///< [-] of all pixels but the first column, which has no reading
+  std::uint8_t colour = 100;   ///< of all bytes
+  bool may_open = true;        ///< this user may
+  bool has_motor = true;       ///< and an accelerometer
+  bool transfers_work = true;  ///< otherwise the camera is given up as soon as it streams
+  double acceleration[3] = {0.0, 9.80665, 0.0};  ///< [m/s^2] in the Kinect's own axes
+};
+
+void plug(const std::string& serial, const Kinect& kinect = {});
+void unplug(const std::string& serial);
+/// Changes one that is plugged in.
+void change(const std::string& serial, const Kinect& kinect);
+/// @return what was set with freenect_set_flag, by flag.
+std::map<int, bool> flags(const std::string& serial);
+/// @return [#] of devices that are open.
+int open();
+
+}  // namespace freenect_double
