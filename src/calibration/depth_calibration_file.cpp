@@ -77,6 +77,8 @@ DepthCalibration loadDepthCalibration(const std::string& file) {
     const DepthCalibration calibration = parse(YAML::LoadFile(file));
     requireReadings(calibration);
     return calibration;
+  } catch (const YAML::BadFile&) {
+    throw std::runtime_error(file + ": expected a depth calibration, got no file that can be read");
   } catch (const std::exception& error) {
     throw std::runtime_error(file + ": " + error.what());
   }

@@ -24,7 +24,7 @@ class WallReading {
 
  private:
   std::vector<double> values_;  ///< [-] in the middle of each image that has readings there
-  std::vector<double> bumps_;   ///< [-] root mean square about the fitted plane
+  std::vector<double> bumps_;   ///< [-] how far each image is from the fitted plane
   std::size_t empty_ = 0;       ///< [#] images without readings in the middle
 };
 

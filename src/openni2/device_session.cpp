@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "openni2/camera_choice.h"
 #include "openni2/lasting_threads.h"
@@ -16,6 +17,12 @@ constexpr double kHealthy = 5.0;           // [s] a camera that stayed so long g
 constexpr double kStep = 0.1;              // [s] between looks at the streams
 constexpr double kReading = 1.0 / 30.0;    // [s] between readings of the accelerometer
 constexpr int kRestarts = 3;               // [#] of a silent stream until the camera is reopened
+
+/// @return [-] of the patience with a stream that was started anew so often without a frame.
+double backOffFactor(int restarts) {
+  constexpr int kMost = 6;
+  return std::exp2(std::clamp(restarts - kRestarts, 0, kMost));
+}
 
 std::chrono::steady_clock::duration seconds(double value) {
   return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
@@ -319,7 +326,10 @@ void DeviceSession::watch() {
     }
     state = SessionState::kSilent;
     text = std::string("no ") + toString(kind) + " image for too long";
-    if (++restarts > kRestarts) {
+    // Where other streams run, reopening the camera would do more harm than good.
+    const bool alone = !anyHeard(patience);
+    if (!alone && stream.silence() < patience * backOffFactor(restarts)) continue;
+    if (++restarts > kRestarts && alone) {
       disconnect(text + ", and starting the stream anew did not help");
       return;
     }
@@ -331,6 +341,14 @@ void DeviceSession::watch() {
     ++status_.restarts;
   }
   report(state, text);
+}
+
+bool DeviceSession::anyHeard(double patience) const {
+  return std::any_of(kAllStreams, kAllStreams + kStreamKinds, [&](StreamKind kind) {
+    if (!camera_->has(kind)) return false;
+    const SensorStream& stream = camera_->stream(kind);
+    return stream.running() && stream.heard() && stream.silence() < patience;
+  });
 }
 
 void DeviceSession::report(SessionState state, const std::string& text) {

@@ -82,6 +82,7 @@ class DeviceSession {
   void startAndStop();
   void startWanted(StreamKind kind);
   void watch();
+  bool anyHeard(double patience) const;
   void readAcceleration();
   double pause() const;
   void onDeviceEvent(const std::string& gone);

@@ -27,7 +27,11 @@ void show(const std::shared_ptr<OpenNi2Runtime>& runtime, const std::string& num
     const SensorStream& stream = camera.stream(kind);
     std::cout << "    " << toString(kind) << ": " << toString(stream.modes()) << ", field of view "
               << stream.horizontalFieldOfView() << " rad\n";
+    if (kind == StreamKind::kDepth && !stream.modes(true).empty()) {
+      std::cout << "    raw disparity: " << toString(stream.modes(true)) << '\n';
+    }
   }
+  if (camera.hasAccelerometer()) std::cout << "    accelerometer\n";
 }
 
 int run(const std::vector<std::string>& ids) {

@@ -29,6 +29,7 @@ struct Plugged {
 std::mutex mutex;  // of what follows
 std::map<std::string, Plugged> plugged;
 int open_devices = 0;
+int times_opened = 0;
 
 freenect_frame_mode makeMode(int format, freenect_resolution resolution, int width, int height,
                              int bytes_per_pixel, int rate) {
@@ -97,6 +98,11 @@ std::map<int, bool> flags(const std::string& serial) {
 int open() {
   const std::lock_guard<std::mutex> lock(mutex);
   return open_devices;
+}
+
+int opened() {
+  const std::lock_guard<std::mutex> lock(mutex);
+  return times_opened;
 }
 
 }  // namespace freenect_double
@@ -181,6 +187,7 @@ int freenect_open_device_by_camera_serial(freenect_context* context, freenect_de
   *device = context->device.get();
   const std::lock_guard<std::mutex> lock(mutex);
   ++open_devices;
+  ++times_opened;
   return 0;
 }
 int freenect_open_device(freenect_context*, freenect_device**, int) { return -1; }
@@ -233,7 +240,7 @@ int freenect_process_events_timeout(freenect_context* context, timeval* timeout)
   device.next = std::max(device.next + kPeriod, Steady::now());
   device.ticks += 60U * 33000U;
   if (device.depth_runs) sendDepth(device, *kinect);
-  if (device.video_runs) sendVideo(device, *kinect);
+  if (device.video_runs && kinect->sends_video) sendVideo(device, *kinect);
   return 0;
 }
 

@@ -21,6 +21,7 @@ struct Kinect {
   std::uint8_t colour = 100;   ///< of all bytes
   bool may_open = true;        ///< this user may
   bool has_motor = true;       ///< and an accelerometer
+  bool sends_video = true;     ///< colour and infrared images come
   bool transfers_work = true;  ///< otherwise the camera is given up as soon as it streams
   double acceleration[3] = {0.0, 9.80665, 0.0};  ///< [m/s^2] in the Kinect's own axes
 };
@@ -31,7 +32,8 @@ void unplug(const std::string& serial);
 void change(const std::string& serial, const Kinect& kinect);
 /// @return what was set with freenect_set_flag, by flag.
 std::map<int, bool> flags(const std::string& serial);
-/// @return [#] of devices that are open.
+/// @return [#] of devices that are open, and of times that one was opened.
 int open();
+int opened();
 
 }  // namespace freenect_double

@@ -26,7 +26,8 @@ class KinectUsb : public testing::Test {
   ~KinectUsb() override {
     for (const char* name : {"/camera/driver", "/other/driver"}) manager_.unload(name);
     for (const char* serial : {"A1", "A2"}) freenect_double::unplug(serial);
-    EXPECT_EQ(freenect_double::open(), 0);
+    // A nodelet may end in the thread that was its last, a moment after it was unloaded.
+    EXPECT_TRUE(spinUntil([] { return freenect_double::open() == 0; }));
   }
 
   static std::string serial(const std::string& ns = "/camera") {
@@ -209,6 +210,22 @@ TEST_F(KinectUsb, WithoutItsMotorACameraIsACameraStill) {
   Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
   ASSERT_TRUE(spinUntil([&] { return images.size() >= 30; }));
   EXPECT_EQ(readings.size(), 0U);
+}
+
+TEST_F(KinectUsb, AStreamThatIsSilentForEverDoesNotHoldUpTheOther) {
+  Kinect kinect;
+  kinect.sends_video = false;
+  freenect_double::plug("A1", kinect);
+  ASSERT_TRUE(manager_.loadDriver("/camera", "A1", {{"watchdog_timeout", "0.2"}}));
+  Listener<sensor_msgs::Image> colour(node_, "rgb/image_raw");
+  Listener<sensor_msgs::Image> depth(node_, "depth/image_raw");
+  ASSERT_TRUE(spinUntil([&] { return depth.size() >= 3; }));
+  const int opened = freenect_double::opened();
+  ASSERT_TRUE(spinUntil([&] { return depth.size() >= 120; }));  // four seconds
+  EXPECT_EQ(freenect_double::opened(), opened) << "the device was closed and opened again";
+  EXPECT_EQ(colour.size(), 0U);
+  freenect_double::change("A1", Kinect());
+  EXPECT_TRUE(spinUntil([&] { return colour.size() >= 3; }));
 }
 
 TEST_F(KinectUsb, StampsAscendWhereTheDevicesClockBeginsAgain) {

@@ -26,10 +26,21 @@ inline std::vector<std::uint16_t> readDepth(openni::VideoStream& stream) {
   return {pixels, pixels + frame.getDataSize() / 2};
 }
 
+/// Puts a depth stream into its first mode with a pixel format.
+inline void setFormat(openni::VideoStream& stream, openni::PixelFormat format) {
+  const auto& modes = stream.getSensorInfo().getSupportedVideoModes();
+  for (int i = 0; i < modes.getSize(); ++i) {
+    if (modes[i].getPixelFormat() != format) continue;
+    if (stream.setVideoMode(modes[i]) == openni::STATUS_OK) return;
+  }
+  throw std::runtime_error("no such mode: " + lastOpenNi2Error());
+}
+
 /// Records depth frames of a device with OpenNI2's own recorder.
 /// @return the pixels of what was read meanwhile.
-inline std::vector<std::vector<std::uint16_t>> recordOni(const std::string& uri,
-                                                         const std::string& file, int frames) {
+inline std::vector<std::vector<std::uint16_t>> recordOni(
+    const std::string& uri, const std::string& file, int frames,
+    openni::PixelFormat format = openni::PIXEL_FORMAT_DEPTH_1_MM) {
   const auto require = [](openni::Status status) {
     if (status != openni::STATUS_OK) throw std::runtime_error(lastOpenNi2Error());
   };
@@ -37,6 +48,7 @@ inline std::vector<std::vector<std::uint16_t>> recordOni(const std::string& uri,
   auto device = runtime->open(uri);
   openni::VideoStream stream;
   require(stream.create(*device, openni::SENSOR_DEPTH));
+  setFormat(stream, format);
   require(stream.start());
   openni::Recorder recorder;
   require(recorder.create(file.c_str()));
