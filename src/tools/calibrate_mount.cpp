@@ -32,10 +32,10 @@ struct Options {
 
 void print(const CalibrateMount::Response& r) {
   constexpr double kDegrees = 57.29578;
-  std::printf("height %.4f m +- %.4f m\n", r.height, r.height_error);
-  std::printf("pitch  %.3f deg +- %.3f deg (%.5f rad, down)\n", kDegrees * r.pitch,
+  std::printf("height %.4f m +- %.5f m\n", r.height, r.height_error);
+  std::printf("pitch  %.3f deg +- %.4f deg (%.5f rad, down)\n", kDegrees * r.pitch,
               kDegrees * r.pitch_error, r.pitch);
-  std::printf("roll   %.3f deg +- %.3f deg (%.5f rad, to the right)\n", kDegrees * r.roll,
+  std::printf("roll   %.3f deg +- %.4f deg (%.5f rad, to the right)\n", kDegrees * r.roll,
               kDegrees * r.roll_error, r.roll);
   std::printf("from %u images; of camera_link:\n%s\n", r.frames, r.launch.c_str());
 }
