@@ -18,7 +18,7 @@ std::string serialNumber(const char* text) {
 }  // namespace
 
 std::string KinectId::uri() const {
-  return "freenect://" + (serial.empty() ? "bus-" + std::to_string(index) : serial);
+  return kScheme + (serial.empty() ? "bus-" + std::to_string(index) : serial);
 }
 
 freenect_frame_mode findDepthMode() {

@@ -7,6 +7,8 @@
 
 namespace dominant_plane_detection::freenect_driver {
 
+constexpr const char* kScheme = "freenect://";
+
 /// A Kinect that is plugged in.
 struct KinectId {
   std::string serial;  ///< empty where libfreenect does not tell

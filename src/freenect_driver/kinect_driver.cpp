@@ -55,8 +55,8 @@ class KinectDriver : public oni::driver::DriverBase {
 
   /// Lets a Kinect be opened that was plugged in a moment ago.
   OniStatus tryDevice(const char* uri) override {
-    const std::lock_guard<std::mutex> lock(looking_);
-    for (const KinectId& id : bus_->list()) {
+    if (std::strncmp(uri, kScheme, std::strlen(kScheme)) != 0) return ONI_STATUS_ERROR;
+    for (const KinectId& id : listBus()) {
       if (id.uri() != uri) continue;
       appear(id);
       return ONI_STATUS_OK;
@@ -104,6 +104,9 @@ class KinectDriver : public oni::driver::DriverBase {
     getServices().errorLoggerAppend("Kinect v1: %s", text.c_str());
   }
 
+  // OpenNI2 calls a driver with a lock held that it takes as well when it is told of a device: none
+  // of our own may be held while it is told.
+
   /// Tells OpenNI2 of Kinects that come and go, from a thread that never holds up a device.
   void watch() {
     pthread_setname_np(pthread_self(), "kinect_watch");
@@ -114,10 +117,7 @@ class KinectDriver : public oni::driver::DriverBase {
       const std::set<std::string> lost = std::exchange(lost_, {});
       const int known = static_cast<int>(kinects_.size());
       lock.unlock();
-      {
-        const std::lock_guard<std::mutex> looking(looking_);
-        for (const std::string& uri : lost) disappear(uri);
-      }
+      for (const std::string& uri : lost) disappear(uri);
       // What was lost may be there again already, but not before it was said to be gone.
       if (worthALook(known) || !lost.empty()) look();
       lock.lock();
@@ -127,14 +127,22 @@ class KinectDriver : public oni::driver::DriverBase {
   /// A Kinect that was just plugged in may not be open to this user yet; one that never will be is
   /// not asked for ever.
   bool worthALook(int known) {
-    const int count = bus_->count();
+    int count = 0;
+    {
+      const std::lock_guard<std::mutex> lock(bus_mutex_);
+      count = bus_->count();
+    }
     if (std::exchange(count_, count) != count) looks_left_ = kLooks;
     return known != count && looks_left_-- > 0;
   }
 
+  std::vector<KinectId> listBus() {
+    const std::lock_guard<std::mutex> lock(bus_mutex_);
+    return bus_->list();
+  }
+
   void look() {
-    const std::lock_guard<std::mutex> looking(looking_);
-    const std::vector<KinectId> present = bus_->list();
+    const std::vector<KinectId> present = listBus();
     std::set<std::string> gone;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -148,7 +156,7 @@ class KinectDriver : public oni::driver::DriverBase {
   void appear(const KinectId& id) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      if (!kinects_.emplace(id.uri(), id).second) return;
+      if (ending_ || !kinects_.emplace(id.uri(), id).second) return;
     }
     const OniDeviceInfo info = deviceInfo(id.uri());
     deviceConnected(&info);
@@ -157,12 +165,13 @@ class KinectDriver : public oni::driver::DriverBase {
   void disappear(const std::string& uri) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      if (kinects_.erase(uri) == 0) return;
+      if (ending_ || kinects_.erase(uri) == 0) return;
     }
     const OniDeviceInfo info = deviceInfo(uri);
     deviceDisconnected(&info);
   }
 
+  std::mutex bus_mutex_;  ///< of `bus_`
   std::unique_ptr<KinectBus> bus_;
   int count_ = 0;            ///< [#] of Kinects at the last look of the watch
   int looks_left_ = kLooks;  ///< [#] until the watch gives up to find them all

@@ -40,8 +40,7 @@ OniStatus KinectStream::start() {
   if (!device_.begin(sensor_)) return ONI_STATUS_OUT_OF_FLOW;
   running_ = startCamera();
   if (running_) return ONI_STATUS_OK;
-  getServices().releaseFrame(frame_);
-  frame_ = nullptr;
+  releaseFrame();
   device_.end(sensor_);
   device_.explain("libfreenect does not start the stream");
   return ONI_STATUS_ERROR;
@@ -65,10 +64,14 @@ bool KinectStream::startCamera() {
 void KinectStream::stop() {
   if (!running_) return;
   sensor_ == ONI_SENSOR_DEPTH ? device_.connection().stopDepth() : device_.connection().stopVideo();
-  if (frame_ != nullptr) getServices().releaseFrame(frame_);
-  frame_ = nullptr;
+  releaseFrame();
   device_.end(sensor_);
   running_ = false;
+}
+
+void KinectStream::releaseFrame() {
+  if (frame_ != nullptr) getServices().releaseFrame(frame_);
+  frame_ = nullptr;
 }
 
 void* KinectStream::buffer() {
@@ -93,8 +96,7 @@ void KinectStream::finished(std::uint64_t time) {
     std::memcpy(frame_->data, spare_.data() + kRowsAbove * step, kHeight * step);
   }
   raiseNewFrame(frame_);
-  getServices().releaseFrame(frame_);
-  frame_ = nullptr;
+  releaseFrame();
 }
 
 void KinectStream::convert(std::uint16_t* readings) {

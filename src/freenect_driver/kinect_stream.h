@@ -24,6 +24,7 @@ class KinectStream : public oni::driver::StreamBase, private FrameSink {
   void finished(std::uint64_t time) override;
 
   bool startCamera();
+  void releaseFrame();
   void convert(std::uint16_t* readings);
   OniStatus setMode(const void* data, int size);
   OniStatus setSwitch(freenect_flag flag, OniBool& value, const void* data, int size);

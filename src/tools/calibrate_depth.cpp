@@ -1,10 +1,11 @@
 // Calibrates the raw disparity of a structured-light sensor, as in Section II of the paper:
 // measured pairs of raw value and distance in, the constants of a form with their errors out.
 
+#include <algorithm>
 #include <boost/algorithm/string/trim.hpp>
 #include <cstdio>
 #include <iostream>
-#include <memory>
+#include <sstream>
 
 #include "calibration/depth_calibration_file.h"
 #include "calibration/depth_fit.h"
@@ -204,8 +205,9 @@ int measureLive(const MeasureCommand& command) {
     if (!std::getline(std::cin, line)) return 0;
     boost::algorithm::trim(line);
     if (line.empty()) return 0;
+    std::istringstream number(line);
     double distance = 0.0;
-    if (!CLI::detail::lexical_cast(line, distance) || !(0.1 <= distance && distance <= 20.0)) {
+    if (!(number >> distance) || !number.eof() || !(0.1 <= distance && distance <= 20.0)) {
       std::cout << "expected a number from 0.1 to 20, got '" << line << "'\n";
       continue;
     }

@@ -214,6 +214,8 @@ int freenect_set_video_buffer(freenect_device* device, void* buffer) {
   return 0;
 }
 int freenect_start_depth(freenect_device* device) {
+  const auto kinect = find(device->serial);
+  if (!kinect || !kinect->starts) return -1;
   device->depth_runs = true;
   return 0;
 }

@@ -21,6 +21,7 @@ struct Kinect {
   std::uint8_t colour = 100;   ///< of all bytes
   bool may_open = true;        ///< this user may
   bool has_motor = true;       ///< and an accelerometer
+  bool starts = true;          ///< streams can be started
   bool sends_video = true;     ///< colour and infrared images come
   bool transfers_work = true;  ///< otherwise the camera is given up as soon as it streams
   double acceleration[3] = {0.0, 9.80665, 0.0};  ///< [m/s^2] in the Kinect's own axes

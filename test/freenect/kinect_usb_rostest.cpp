@@ -212,6 +212,19 @@ TEST_F(KinectUsb, WithoutItsMotorACameraIsACameraStill) {
   EXPECT_EQ(readings.size(), 0U);
 }
 
+TEST_F(KinectUsb, AStreamThatDoesNotStartIsTriedAgain) {
+  Kinect kinect;
+  kinect.starts = false;
+  freenect_double::plug("A1", kinect);
+  ASSERT_TRUE(manager_.loadDriver("/camera", "A1"));
+  Listener<sensor_msgs::Image> depth(node_, "depth/image_raw");
+  Listener<sensor_msgs::Image> colour(node_, "rgb/image_raw");
+  ASSERT_TRUE(spinUntil([&] { return colour.size() >= 10; })) << "the other one starts";
+  EXPECT_EQ(depth.size(), 0U);
+  freenect_double::change("A1", Kinect());
+  EXPECT_TRUE(spinUntil([&] { return depth.size() >= 3; }));
+}
+
 TEST_F(KinectUsb, AStreamThatIsSilentForEverDoesNotHoldUpTheOther) {
   Kinect kinect;
   kinect.sends_video = false;
