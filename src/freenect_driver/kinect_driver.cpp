@@ -72,15 +72,13 @@ class KinectDriver : public oni::driver::DriverBase {
       if (known == kinects_.end()) return nullptr;
       id = known->second;
     }
-    KinectDevice::Driver driver;
-    driver.lost = [this, name = id.uri()] {
+    const auto lost = [this, name = id.uri()] {
       const std::lock_guard<std::mutex> lock(mutex_);
       lost_.insert(name);
       changed_.notify_all();
     };
-    driver.explain = [this](const std::string& text) { explain(text); };
     try {
-      return new KinectDevice(id, std::move(driver));
+      return new KinectDevice(id, lost, [this](const std::string& text) { explain(text); });
     } catch (const std::runtime_error& error) {
       explain(error.what());
       return nullptr;

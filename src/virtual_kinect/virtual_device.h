@@ -4,11 +4,9 @@
 #include <deque>
 #include <functional>
 #include <mutex>
-#include <set>
 #include <string>
-#include <vector>
 
-#include "openni2_plugin/driver_api.h"
+#include "openni2_plugin/plugin_device.h"
 #include "virtual_kinect/device_clock.h"
 #include "virtual_kinect/scene_camera.h"
 #include "virtual_kinect/virtual_kinect.h"
@@ -24,7 +22,7 @@ struct DeviceDescription {
 };
 
 /// An opened virtual Kinect: depth in mm and as raw disparity, colour, infrared.
-class VirtualDevice : public oni::driver::DeviceBase {
+class VirtualDevice : public openni2_plugin::PluginDevice {
  public:
   /// What the device leaves to its driver.
   struct Driver {
@@ -35,29 +33,20 @@ class VirtualDevice : public oni::driver::DeviceBase {
 
   VirtualDevice(const DeviceDescription& description, Driver driver);
 
-  OniStatus getSensorInfoList(OniSensorInfo** infos, int* count) override;
   oni::driver::StreamBase* createStream(OniSensorType sensor) override;
-  void destroyStream(oni::driver::StreamBase* stream) override;
   OniStatus getProperty(int id, void* data, int* size) override;
-  OniStatus setProperty(int id, const void* data, int size) override;
   OniBool isPropertySupported(int id) override;
   OniStatus invoke(int command, void* data, int size) override;
   OniBool isCommandSupported(int command) override;
-  OniBool isImageRegistrationModeSupported(OniImageRegistrationMode mode) override;
 
   // For its streams.
   const SceneCamera& camera() const { return camera_; }
   const DeviceClock& clock() const { return clock_; }
-  const std::vector<OniVideoMode>& modes(OniSensorType sensor) const;
   DeviceClock::Steady::time_point begin() const { return begin_; }
   double sceneTime(DeviceClock::Steady::time_point time) const;
-  bool registered() const { return registered_; }
   /// A stream that began at another number than the device has now is silent.
   int stalls() const { return stalls_; }
   bool gone() const { return gone_; }
-  /// @return whether the sensor can stream beside those that do.
-  bool begin(OniSensorType sensor);
-  void end(OniSensorType sensor);
   void record(const FrameRecord& record);
 
   // For its driver.
@@ -65,21 +54,19 @@ class VirtualDevice : public oni::driver::DeviceBase {
   void stall() { ++stalls_; }
 
  private:
+  bool canRegister() const override { return true; }
+  bool hasAccelerometer() const override { return true; }
+  std::optional<openni2_plugin::Acceleration> acceleration() override;
   OniStatus copyRecords(void* data, int* size) const;
 
   SceneCamera camera_;
   DeviceClock clock_;
   DeviceClock::Steady::time_point begin_;
-  std::string serial_;
   double start_;
   Driver driver_;
-  std::vector<OniVideoMode> depth_modes_, colour_modes_, infrared_modes_;
-  std::vector<OniSensorInfo> sensors_;
-  std::atomic<bool> registered_{false};
   std::atomic<bool> gone_{false};
   std::atomic<int> stalls_{0};
   mutable std::mutex mutex_;  ///< of what follows
-  std::set<OniSensorType> streaming_;
   std::deque<FrameRecord> records_;
 };
 

@@ -4,22 +4,20 @@
 #include <mutex>
 #include <thread>
 
+#include "openni2_plugin/plugin_stream.h"
 #include "virtual_kinect/virtual_device.h"
 
 namespace dominant_plane_detection::virtual_kinect {
 
 /// One sensor of a virtual Kinect. Frames are rendered straight into OpenNI2's buffers, each ahead
 /// of its time, in a thread called "virtual_kinect"; what is not ready in time is left out.
-class VirtualStream : public oni::driver::StreamBase {
+class VirtualStream : public openni2_plugin::PluginStream {
  public:
   VirtualStream(VirtualDevice& device, OniSensorType sensor);
   ~VirtualStream() override;
 
   OniStatus start() override;
   void stop() override;
-  OniStatus getProperty(int id, void* data, int* size) override;
-  OniStatus setProperty(int id, const void* data, int size) override;
-  OniBool isPropertySupported(int id) override;
 
  private:
   using Steady = DeviceClock::Steady;
@@ -28,15 +26,10 @@ class VirtualStream : public oni::driver::StreamBase {
   /// @return false when the stream has been stopped meanwhile.
   bool sleepUntil(Steady::time_point time);
   void render(double scene_time, std::uint32_t frame, OniFrame& to) const;
-  OniStatus setMode(const void* data, int size);
-  OniStatus setSwitch(OniBool& value, const void* data, int size) const;
-  float fieldOfView(bool vertical) const;
+  bool running() const override { return thread_.joinable(); }
+  double focalLength(bool vertical) const override;
 
   VirtualDevice& device_;
-  OniSensorType sensor_;
-  OniVideoMode mode_;
-  OniBool auto_exposure_ = TRUE;
-  OniBool auto_white_balance_ = TRUE;
   std::mutex mutex_;
   std::condition_variable stopping_changed_;
   bool stopping_ = false;
