@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
+#include "dominant_plane_detection/disparity_table.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "dominant_plane_detection/ground_segmentation.h"
 #include "dominant_plane_detection/tile_moments.h"
@@ -59,6 +60,42 @@ void labels(benchmark::State& state) {
   }
 }
 BENCHMARK(labels)->Unit(benchmark::kMicrosecond);
+
+/// An image of raw disparity as somebody sees it: neighbours differ by little.
+std::vector<std::uint16_t> disparity() {
+  std::mt19937 generator(1);
+  std::uniform_int_distribution<int> noise(-3, 3);
+  std::vector<std::uint16_t> raw;
+  for (int i = 0; i < 640 * 480; ++i) {
+    raw.push_back(static_cast<std::uint16_t>(600 + i / 1000 + noise(generator)));
+  }
+  return raw;
+}
+
+/// Raw disparity to millimetres, by the table and by Eq. 1 for each pixel.
+void disparityTable(benchmark::State& state) {
+  const DisparityTable table(DepthCalibration::paper());
+  const std::vector<std::uint16_t> raw = disparity();
+  std::vector<std::uint16_t> depth(raw.size());
+  for (auto _ : state) {
+    table.apply(raw.data(), raw.size(), depth.data());
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(disparityTable)->Unit(benchmark::kMicrosecond);
+
+void disparityFormula(benchmark::State& state) {
+  const DepthCalibration calibration = DepthCalibration::paper();
+  const std::vector<std::uint16_t> raw = disparity();
+  std::vector<std::uint16_t> depth(raw.size());
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+      depth[i] = static_cast<std::uint16_t>(1000.0 * calibration.distance(raw[i]) + 0.5);
+    }
+    benchmark::ClobberMemory();
+  }
+}
+BENCHMARK(disparityFormula)->Unit(benchmark::kMicrosecond);
 
 void wholeDetector(benchmark::State& state, Algorithm algorithm, int subsampling) {
   Parameters parameters;
