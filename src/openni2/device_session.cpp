@@ -113,18 +113,21 @@ void DeviceSession::run() {
 
 void DeviceSession::step() {
   bool gone = false;
-  bool search_now = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     gone = std::exchange(gone_, false);
-    search_now = Steady::now() >= next_search_;
   }
   if (camera_ && gone) disconnect("it was unplugged");
-  if (!camera_ && search_now) search();
+  if (!camera_ && timeToSearch()) search();
   if (!camera_) return;
   startAndStop();
   watch();
   if (camera_) readAcceleration();
+}
+
+bool DeviceSession::timeToSearch() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return Steady::now() >= next_search_;
 }
 
 double DeviceSession::pause() const { return acceleration_wanted_ ? kReading : kStep; }

@@ -74,6 +74,7 @@ class DeviceSession {
 
   void run();
   void step();
+  bool timeToSearch() const;
   void search();
   void connect(const std::string& uri);
   void disconnect(const std::string& why);

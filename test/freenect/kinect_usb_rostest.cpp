@@ -114,6 +114,20 @@ TEST_F(KinectUsb, FailedTransfersLoseTheDeviceUntilTheyWorkAgain) {
   EXPECT_EQ(serial(), "A1");
 }
 
+TEST_F(KinectUsb, OneThatFailsAtOnceIsOpenedLessAndLessOften) {
+  Kinect kinect;
+  kinect.transfers_work = false;
+  freenect_double::plug("A1", kinect);
+  const int before = freenect_double::opened();
+  ASSERT_TRUE(manager_.loadDriver("/camera", "A1"));
+  Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
+  // Each time once for its serial number and once for its images.
+  ASSERT_TRUE(spinUntil([&] { return freenect_double::opened() >= before + 2; }));
+  const ros::SteadyTime first = ros::SteadyTime::now();
+  ASSERT_TRUE(spinUntil([&] { return freenect_double::opened() >= before + 8; }));
+  EXPECT_GE((ros::SteadyTime::now() - first).toSec(), 0.25 + 0.5 + 1.0 - 0.1);
+}
+
 TEST_F(KinectUsb, OneThatThisUserMayNotOpenIsWaitedFor) {
   Kinect kinect;
   kinect.may_open = false;
