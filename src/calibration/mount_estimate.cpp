@@ -70,12 +70,17 @@ double Mount::linkHeight() const {
 }
 
 std::string Mount::launchText() const {
+  // To a tenth of a millimetre and of a milliradian, without a minus before zero.
+  const auto rounded = [](double value) { return std::round(1e4 * value) / 1e4 + 0.0; };
+  const double z = rounded(linkHeight());
+  const double p = rounded(pitch);
+  const double r = rounded(roll);
   char text[400];
   std::snprintf(text, sizeof(text),
                 "mount_height:=%.4f mount_pitch:=%.4f mount_roll:=%.4f\n"
                 "<node pkg=\"tf2_ros\" type=\"static_transform_publisher\" name=\"camera_mount\"\n"
                 "      args=\"0 0 %.4f 0 %.4f %.4f base_link camera_link\" />",
-                linkHeight(), pitch, roll, linkHeight(), pitch, roll);
+                z, p, r, z, p, r);
   return text;
 }
 

@@ -62,6 +62,19 @@ TEST(MountEstimateTest, GivesThePoseOverTheFloor) {
   }
 }
 
+TEST(MountEstimateTest, LaunchTextIsOfTheLinkAndRounded) {
+  Mount mount;
+  mount.height = 0.45;
+  mount.pitch = 0.22004;
+  mount.roll = -0.00001;
+  const std::string text = mount.launchText();
+  EXPECT_EQ(text.substr(0, text.find('\n')),
+            "mount_height:=0.4500 mount_pitch:=0.2200 mount_roll:=0.0000");
+  EXPECT_NE(text.find("args=\"0 0 0.4500 0 0.2200 0.0000 base_link camera_link\""),
+            std::string::npos)
+      << text;
+}
+
 TEST(MountEstimateTest, ErrorsAreThoseOfTheMean) {
   std::mt19937 generator(2);
   std::normal_distribution<double> normal;
