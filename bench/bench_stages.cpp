@@ -5,11 +5,12 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
-#include "dominant_plane_detection/disparity_table.h"
+#include "core/disparity_table.h"
+#include "core/ground_segmentation.h"
+#include "core/plane_search.h"
+#include "core/ray_table.h"
+#include "core/tile_moments.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
-#include "dominant_plane_detection/ground_segmentation.h"
-#include "dominant_plane_detection/tile_moments.h"
-#include "plane_search.h"
 #include "reference_sets.h"
 
 namespace dominant_plane_detection {

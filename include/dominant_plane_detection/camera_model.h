@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <vector>
 
 namespace dominant_plane_detection {
 
@@ -47,35 +46,5 @@ struct CameraModel {
 /// The infrared camera of Table I, for comparison with the paper; its principal point lies 50 px
 /// below the middle of the image, so it is no default for a real Kinect.
 CameraModel paperCamera();
-
-/// Rays (X/Z, Y/Z) of every pixel, made once per camera: one value a column and one a row where the
-/// lens is not distorted, one pair a pixel where it is.
-class RayTable {
- public:
-  /// Does nothing when the table is that of `camera` already.
-  /// @pre camera.valid()
-  void build(const CameraModel& camera);
-
-  const CameraModel& camera() const { return camera_; }
-  /// @return whether y is the same along each row, and x the same in every row.
-  bool separable() const { return camera_.distortion == DistortionModel::kNone; }
-  /// @return [-] X/Z of the pixels of row v, `camera().width` values.
-  const float* x(int v) const { return separable() ? x_.data() : x_.data() + offset(v); }
-  /// @return [-] Y/Z of the pixels of row v: one value if `separable()`, otherwise
-  /// `camera().width` values.
-  const float* y(int v) const { return separable() ? y_.data() + v : y_.data() + offset(v); }
-
-  /// @return [-] (X/Z, Y/Z, 1) of pixel (u, v).
-  Eigen::Vector3f ray(int u, int v) const { return {x(v)[u], y(v)[separable() ? 0 : u], 1.0F}; }
-
- private:
-  std::size_t offset(int v) const {
-    return static_cast<std::size_t>(v) * static_cast<std::size_t>(camera_.width);
-  }
-
-  CameraModel camera_;
-  std::vector<float> x_;
-  std::vector<float> y_;
-};
 
 }  // namespace dominant_plane_detection

@@ -1,4 +1,4 @@
-#include "dominant_plane_detection/disparity_table.h"
+#include "core/disparity_table.h"
 
 #include <cmath>
 #include <limits>

@@ -7,10 +7,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "dominant_plane_detection/ground_segmentation.h"
-#include "dominant_plane_detection/tile_moments.h"
-#include "plane_search.h"
-#include "plane_selection.h"
+#include "core/ground_segmentation.h"
+#include "core/plane_search.h"
+#include "core/plane_selection.h"
+#include "core/ray_table.h"
+#include "core/tile_moments.h"
 
 namespace dominant_plane_detection {
 namespace {

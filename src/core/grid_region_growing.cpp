@@ -1,4 +1,4 @@
-#include "dominant_plane_detection/grid_region_growing.h"
+#include "core/grid_region_growing.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -8,8 +8,8 @@
 #include <cstring>
 #include <limits>
 
-#include "plane_refinement_kernel.h"
-#include "tile_neighbours.h"
+#include "core/plane_refinement_kernel.h"
+#include "core/tile_neighbours.h"
 
 namespace dominant_plane_detection {
 namespace {

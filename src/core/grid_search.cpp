@@ -1,4 +1,4 @@
-#include "plane_search.h"
+#include "core/plane_search.h"
 
 namespace dominant_plane_detection {
 

@@ -1,12 +1,12 @@
-#include "dominant_plane_detection/ground_segmentation.h"
+#include "core/ground_segmentation.h"
 
 #include <algorithm>
 #include <cstring>
 
+#include "core/label_kernel.h"
+#include "core/tile_moments.h"
+#include "core/tile_neighbours.h"
 #include "dominant_plane_detection/detection.h"
-#include "dominant_plane_detection/tile_moments.h"
-#include "label_kernel.h"
-#include "tile_neighbours.h"
 
 namespace dominant_plane_detection {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/ray_table.h"
 #include "dominant_plane_detection/camera_model.h"
 #include "dominant_plane_detection/depth_image.h"
 

@@ -1,4 +1,4 @@
-#include "dominant_plane_detection/kdtree_region_growing.h"
+#include "core/kdtree_region_growing.h"
 
 #include <algorithm>
 #include <cmath>

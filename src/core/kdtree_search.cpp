@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "plane_search.h"
+#include "core/plane_search.h"
 
 namespace dominant_plane_detection {
 namespace {

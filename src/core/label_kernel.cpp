@@ -1,4 +1,4 @@
-#include "label_kernel.h"
+#include "core/label_kernel.h"
 
 #include <algorithm>
 
@@ -6,11 +6,11 @@
 
 // Compiled once for each instruction set, see tile_moments_kernel.cpp.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "label_kernel.cpp"
+#define HWY_TARGET_INCLUDE "core/label_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "pixel_rows-inl.h"
+#include "core/pixel_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace dominant_plane_detection {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "image_kernel.h"
+#include "core/image_kernel.h"
 
 namespace dominant_plane_detection {
 

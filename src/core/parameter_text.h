@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "dominant_plane_detection/parameter_table.h"
+#include "core/parameter_table.h"
 
 namespace dominant_plane_detection {
 

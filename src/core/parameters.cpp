@@ -1,6 +1,6 @@
 #include "dominant_plane_detection/parameters.h"
 
-#include "parameter_text.h"
+#include "core/parameter_text.h"
 
 namespace dominant_plane_detection {
 

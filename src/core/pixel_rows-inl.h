@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "dominant_plane_detection/tile_moments.h"
-#include "image_kernel.h"
+#include "core/image_kernel.h"
+#include "core/tile_moments.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace dominant_plane_detection {

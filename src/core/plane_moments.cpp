@@ -1,4 +1,4 @@
-#include "dominant_plane_detection/plane_moments.h"
+#include "core/plane_moments.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,12 +1,12 @@
-#include "plane_refinement_kernel.h"
+#include "core/plane_refinement_kernel.h"
 
 // Compiled once for each instruction set, see tile_moments_kernel.cpp.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "plane_refinement_kernel.cpp"
+#define HWY_TARGET_INCLUDE "core/plane_refinement_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "pixel_rows-inl.h"
+#include "core/pixel_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace dominant_plane_detection {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dominant_plane_detection/tile_moments.h"
+#include "core/tile_moments.h"
 
 namespace dominant_plane_detection {
 

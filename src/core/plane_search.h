@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "dominant_plane_detection/grid_region_growing.h"
-#include "dominant_plane_detection/kdtree_region_growing.h"
+#include "core/grid_region_growing.h"
+#include "core/image_kernel.h"
+#include "core/kdtree_region_growing.h"
+#include "core/plane_selection.h"
+#include "core/seed_selection.h"
 #include "dominant_plane_detection/parameters.h"
-#include "dominant_plane_detection/seed_selection.h"
-#include "image_kernel.h"
-#include "plane_selection.h"
 
 namespace dominant_plane_detection {
 

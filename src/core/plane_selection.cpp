@@ -1,4 +1,4 @@
-#include "plane_selection.h"
+#include "core/plane_selection.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/hesse_plane.h"
 #include "dominant_plane_detection/detection.h"
-#include "dominant_plane_detection/hesse_plane.h"
 
 namespace dominant_plane_detection {
 

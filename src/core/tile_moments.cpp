@@ -1,8 +1,8 @@
-#include "dominant_plane_detection/tile_moments.h"
+#include "core/tile_moments.h"
 
 #include <algorithm>
 
-#include "tile_moments_kernel.h"
+#include "core/tile_moments_kernel.h"
 
 namespace dominant_plane_detection {
 

@@ -1,4 +1,4 @@
-#include "tile_moments_kernel.h"
+#include "core/tile_moments_kernel.h"
 
 #include <algorithm>
 #include <array>
@@ -6,11 +6,11 @@
 // Highway compiles what stands between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE once for each
 // instruction set, by including this file again.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tile_moments_kernel.cpp"
+#define HWY_TARGET_INCLUDE "core/tile_moments_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "pixel_rows-inl.h"
+#include "core/pixel_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace dominant_plane_detection {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dominant_plane_detection/tile_moments.h"
-#include "image_kernel.h"
+#include "core/image_kernel.h"
+#include "core/tile_moments.h"
 
 namespace dominant_plane_detection {
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <mutex>
 
-#include "dominant_plane_detection/disparity_table.h"
+#include "core/disparity_table.h"
 #include "openni2/clock_filter.h"
 #include "openni2/device_session.h"
 #include "ros/driver_diagnostics.h"

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/ray_table.h"
 #include "dominant_plane_detection/camera_model.h"
 #include "dominant_plane_detection/depth_image.h"
 #include "dominant_plane_detection/detection.h"

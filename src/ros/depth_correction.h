@@ -2,7 +2,7 @@
 
 #include <sensor_msgs/Image.h>
 
-#include "dominant_plane_detection/disparity_table.h"
+#include "core/disparity_table.h"
 
 namespace dominant_plane_detection {
 

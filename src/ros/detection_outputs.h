@@ -7,6 +7,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
+#include "core/ray_table.h"
 #include "dominant_plane_detection/camera_model.h"
 #include "dominant_plane_detection/detection.h"
 #include "ros/detection_inputs.h"

@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/ray_table.h"
 #include "dominant_plane_detection/detection.h"
 
 namespace dominant_plane_detection {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "dominant_plane_detection/disparity_table.h"
+#include "core/disparity_table.h"
 
 namespace dominant_plane_detection {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/ray_table.h"
 #include "support/synthetic_depth.h"
 
 namespace dominant_plane_detection {

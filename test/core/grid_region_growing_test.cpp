@@ -1,10 +1,11 @@
-#include "dominant_plane_detection/grid_region_growing.h"
+#include "core/grid_region_growing.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
+#include "core/ray_table.h"
 #include "support/synthetic_depth.h"
 
 namespace dominant_plane_detection {

@@ -1,10 +1,11 @@
-#include "dominant_plane_detection/ground_segmentation.h"
+#include "core/ground_segmentation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "core/ray_table.h"
 #include "dominant_plane_detection/detection.h"
 #include "support/synthetic_depth.h"
 

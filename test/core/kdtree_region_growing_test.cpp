@@ -1,6 +1,6 @@
 // Algorithm 1 against its definition, carried out literally.
 
-#include "dominant_plane_detection/kdtree_region_growing.h"
+#include "core/kdtree_region_growing.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "core/parameter_table.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
-#include "dominant_plane_detection/parameter_table.h"
 
 namespace dominant_plane_detection {
 namespace {

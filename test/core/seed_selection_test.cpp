@@ -1,4 +1,4 @@
-#include "dominant_plane_detection/seed_selection.h"
+#include "core/seed_selection.h"
 
 #include <gtest/gtest.h>
 

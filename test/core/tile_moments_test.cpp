@@ -1,4 +1,4 @@
-#include "dominant_plane_detection/tile_moments.h"
+#include "core/tile_moments.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "core/ray_table.h"
 #include "support/synthetic_depth.h"
 
 namespace dominant_plane_detection {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "dominant_plane_detection/disparity_table.h"
+#include "core/disparity_table.h"
 #include "freenect_driver/depth_tables.h"
 #include "freenect_driver/tick_clock.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/ray_table.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "ros/camera_conversion.h"
 #include "ros/cloud_conversion.h"

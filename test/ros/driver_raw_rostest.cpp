@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "dominant_plane_detection/disparity_table.h"
+#include "core/disparity_table.h"
 #include "support/driver_test.h"
 #include "support/oni_recording.h"
 #include "support/ros_test.h"

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/ray_table.h"
 #include "nodelet_fixture.h"
 
 namespace dominant_plane_detection {

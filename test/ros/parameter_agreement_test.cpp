@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "dominant_plane_detection/parameter_table.h"
+#include "core/parameter_table.h"
 #include "ros/detection_parameters.h"
 #include "ros/driver_parameters.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/ray_table.h"
 #include "dominant_plane_detection/noise_model.h"
 
 namespace dominant_plane_detection {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/ray_table.h"
 #include "dominant_plane_detection/detection.h"
 
 namespace dominant_plane_detection {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "dominant_plane_detection/hesse_plane.h"
+#include "core/hesse_plane.h"
 
 namespace dominant_plane_detection {
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/ray_table.h"
 #include "dominant_plane_detection/camera_model.h"
 #include "dominant_plane_detection/depth_image.h"
 #include "dominant_plane_detection/noise_model.h"

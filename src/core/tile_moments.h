@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/ray_table.h"
 #include "dominant_plane_detection/camera_model.h"
 #include "dominant_plane_detection/depth_image.h"
 

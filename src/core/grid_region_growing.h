@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "dominant_plane_detection/growth_thresholds.h"
-#include "dominant_plane_detection/plane_moments.h"
-#include "dominant_plane_detection/tile_moments.h"
+#include "core/growth_thresholds.h"
+#include "core/plane_moments.h"
+#include "core/tile_moments.h"
 
 namespace dominant_plane_detection {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "dominant_plane_detection/growth_thresholds.h"
-#include "dominant_plane_detection/plane_moments.h"
+#include "core/growth_thresholds.h"
+#include "core/plane_moments.h"
 
 namespace dominant_plane_detection {
 
