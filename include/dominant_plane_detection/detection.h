@@ -34,6 +34,14 @@ enum class Label : std::uint8_t {
 /// Where the expected "up" direction came from. The values are those of DominantPlane.msg.
 enum class UpSource : std::uint8_t { kNone = 0, kFixed, kImu, kTf };
 
+/// [#] The work that a detection took.
+struct Effort {
+  std::size_t seeds = 0;    ///< that were tried
+  std::size_t regions = 0;  ///< that were grown
+  std::size_t joined = 0;   ///< tiles (grid) or points (kdtree) that joined these
+  std::size_t fits = 0;     ///< of a plane
+};
+
 /// The dominant plane of one depth image, in the depth optical frame.
 ///
 /// Without a plane (state other than kFound) the numbers are NaN, the counts 0 and every label
@@ -50,14 +58,20 @@ struct Detection {
   std::size_t inliers = 0;                                              ///< [px] labelled ground
   std::size_t valid_pixels = 0;  ///< [px] with a reading within the range limits
   UpSource up_source = UpSource::kNone;
-  int width = 0;                     ///< [px]
-  int height = 0;                    ///< [px]
+  Effort effort;
+  int image_width = 0;               ///< [px]
+  int image_height = 0;              ///< [px]
   std::vector<std::uint8_t> labels;  ///< `Label` of each pixel, row-major
+
+  /// @param point [m] in the optical frame.
+  /// @return [m] its height over the plane, NaN without one.
+  double height(const Eigen::Vector3d& point) const { return normal.dot(point) + distance; }
 
   bool found() const { return state == State::kFound; }
   Label label(int u, int v) const {
-    return static_cast<Label>(labels[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
-                                     static_cast<std::size_t>(u)]);
+    return static_cast<Label>(
+        labels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image_width) +
+               static_cast<std::size_t>(u)]);
   }
   /// @return [-] inliers as a share of the valid pixels; NaN without a plane.
   double inlierShare() const {

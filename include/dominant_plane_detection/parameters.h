@@ -29,9 +29,11 @@ struct Parameters {
   DepthThreshold epsilon{0.0, 1.0};  ///< [m] square root of the largest mean square error
   DepthThreshold gamma{0.0, 3.0};    ///< [m] farthest a candidate may be from the plane
 
+  bool join_pieces = true;  ///< pieces of the plane beyond a gap wider than delta join
+
   DepthThreshold ground_band{0.0, 3.0};  ///< [m] largest height of a pixel that is still ground
-  int min_patch = 400;                   ///< [px] smallest connected piece of ground
-  double min_share = 0.05;               ///< [-] smallest plane, as a share of the valid pixels
+  int min_patch = 400;      ///< [px] smallest connected piece of ground, of 640 x 480 pixels
+  double min_share = 0.05;  ///< [-] smallest plane, as a share of the valid pixels
   Eigen::Vector3d expected_up{0.0, -1.0, 0.0};  ///< [-] in the optical frame, of any length
   double max_tilt = 1.05;    ///< [rad] largest angle between normal and expected up
   double min_height = 0.0;   ///< [m] lowest camera height over the plane

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/grid_search.h"
 #include "core/ground_segmentation.h"
 #include "core/plane_search.h"
 #include "core/plane_selection.h"
@@ -82,23 +83,39 @@ class DominantPlaneDetector::Implementation {
     }
 
     PlaneSelection selection(limits(prior));
-    const std::size_t seeds_tried = parameters_.algorithm == Algorithm::kGrid
-                                        ? grid_.run(tiles_, parameters_, selection)
-                                        : kdtree_.run(input, parameters_, selection);
-    if (seeds_tried == 0) {
+    search(input, selection);
+    if (detection_.effort.seeds == 0) {
       std::snprintf(sentence.data(), sentence.size(),
                     "%zu pixels have a reading, too few or too scattered for a region to start.",
                     detection_.valid_pixels);
       return refuse(State::kTooFewPoints, sentence);
     }
     if (!selection.found()) {
-      selection.explain(seeds_tried, sentence);
+      selection.explain(detection_.effort.seeds, sentence);
       return refuse(selection.refusal(), sentence);
     }
-    return accept(depth, selection.plane());
+    return accept(input, selection);
   }
 
  private:
+  void search(const ImageInput& input, PlaneSelection& selection) {
+    const double tile_angle = kTileSize / std::max(rays_.camera().fx, rays_.camera().fy);
+    if (parameters_.algorithm == Algorithm::kGrid) {
+      grid_.run(tiles_, tile_angle, minPatch(), parameters_, selection, detection_.effort);
+      return;
+    }
+    detection_.effort.seeds = kdtree_.run(input, parameters_, selection);
+    if (!selection.found()) return;
+    grid_.collectGround(tiles_, tile_angle, minPatch(), parameters_, selection.plane());
+  }
+
+  /// @return [px] smallest piece of ground in an image of this size.
+  std::size_t minPatch() const {
+    const double share =
+        static_cast<double>(detection_.image_width) * detection_.image_height / (640.0 * 480.0);
+    return static_cast<std::size_t>(std::ceil(parameters_.min_patch * share));
+  }
+
   float rangeMin() const { return static_cast<float>(parameters_.range_min); }
   float rangeMax() const { return static_cast<float>(parameters_.range_max); }
 
@@ -113,17 +130,19 @@ class DominantPlaneDetector::Implementation {
     detection_.mean_square_error = kNaN;
     detection_.inliers = 0;
     detection_.valid_pixels = 0;
+    detection_.effort = Effort();
     detection_.up_source = prior.expected_up ? prior.up_source : UpSource::kFixed;
-    detection_.width = std::max(depth.width, 0);
-    detection_.height = std::max(depth.height, 0);
+    detection_.image_width = std::max(depth.width, 0);
+    detection_.image_height = std::max(depth.height, 0);
   }
 
   PlaneLimits limits(const Prior& prior) const {
     const auto valid = static_cast<double>(detection_.valid_pixels);
-    return {prior.expected_up.value_or(parameters_.expected_up).normalized(), parameters_.max_tilt,
-            prior.height_range ? prior.height_range->min : parameters_.min_height,
-            prior.height_range ? prior.height_range->max : parameters_.max_height,
-            static_cast<std::size_t>(std::ceil(parameters_.min_share * valid))};
+    return {
+        prior.expected_up.value_or(parameters_.expected_up).normalized(), parameters_.max_tilt,
+        prior.height_range ? prior.height_range->min : parameters_.min_height,
+        prior.height_range ? prior.height_range->max : parameters_.max_height,
+        std::max(static_cast<std::size_t>(std::ceil(parameters_.min_share * valid)), minPatch())};
   }
 
   const Detection& refuse(State state, const Sentence& sentence) {
@@ -131,20 +150,29 @@ class DominantPlaneDetector::Implementation {
     detection_.reason.assign(sentence.data());
     detection_.valid_pixels = 0;
     detection_.labels.assign(
-        static_cast<std::size_t>(detection_.width) * static_cast<std::size_t>(detection_.height),
+        static_cast<std::size_t>(detection_.image_width) * static_cast<std::size_t>(detection_.image_height),
         static_cast<std::uint8_t>(Label::kUnknown));
     return detection_;
   }
 
-  const Detection& accept(const DepthView& depth, const HessePlane& plane) {
-    detection_.state = State::kFound;
-    detection_.normal = -plane.normal;
-    detection_.distance = plane.distance;
-    const SegmentationLimits limits{rangeMin(), rangeMax(), parameters_.noise,
-                                    parameters_.ground_band,
-                                    static_cast<std::size_t>(parameters_.min_patch)};
+  const Detection& accept(const ImageInput& input, const PlaneSelection& selection) {
+    const HessePlane& plane = selection.plane();
+    const Eigen::Vector3d normal = -plane.normal;
     const SegmentationCounts counts = segmentation_.label(
-        depth, rays_, detection_.normal, detection_.distance, limits, detection_.labels);
+        input, normal, plane.distance, {parameters_.noise, parameters_.ground_band}, tiles_,
+        grid_.ground(), detection_.labels);
+    if (counts.ground < selection.minPoints()) {
+      Sentence sentence{};
+      std::snprintf(
+          sentence.data(), sentence.size(),
+          "Only %zu pixels are ground, fewer than the required %zu (min_share, min_patch, "
+          "ground_band).",
+          counts.ground, selection.minPoints());
+      return refuse(State::kTooSmall, sentence);
+    }
+    detection_.state = State::kFound;
+    detection_.normal = normal;
+    detection_.distance = plane.distance;
     detection_.inliers = counts.ground;
     detection_.mean_square_error = counts.mean_square_error;
     return detection_;

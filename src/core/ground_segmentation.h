@@ -5,50 +5,44 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/ray_table.h"
-#include "dominant_plane_detection/camera_model.h"
-#include "dominant_plane_detection/depth_image.h"
+#include "core/image_kernel.h"
+#include "core/tile_moments.h"
 #include "dominant_plane_detection/noise_model.h"
 
 namespace dominant_plane_detection {
 
 /// What decides a pixel's label.
 struct SegmentationLimits {
-  float range_min;        ///< [m] readings outside [range_min, range_max] are unknown
-  float range_max;        ///< [m]
-  NoiseModel noise;       ///< sigma(z)
-  DepthThreshold band;    ///< [m] |height| up to which a pixel is ground, of its depth
-  std::size_t min_patch;  ///< [px] smallest connected piece of ground
+  NoiseModel noise;     ///< sigma(z)
+  DepthThreshold band;  ///< [m] |height| up to which a pixel can be ground, of its depth
 };
 
 /// What the labelling counted.
 struct SegmentationCounts {
-  std::size_t ground = 0;  ///< [px]
-  double mean_square_error =
-      0.0;  ///< [m^2] Eq. 8 over the pixels within the ground band; 0 if none
+  std::size_t ground = 0;          ///< [px]
+  double mean_square_error = 0.0;  ///< [m^2] Eq. 8 over these; 0 if there are none
 };
 
-/// Labels every pixel by its height over a plane. Ground is wherever the plane is seen again,
-/// however many obstacles lie between.
+/// Labels every pixel by its height over a plane. Ground is where the plane's region is: pixels
+/// within the band in its tiles and those next to them, which the region may only touch. Elsewhere
+/// something else crosses the plane's height, and what it is stays unknown.
 class GroundSegmentation {
  public:
   /// @param normal [-] unit normal from the plane to the camera.
   /// @param distance [m] camera's height over the plane.
+  /// @param tiles of the image; only its size matters.
+  /// @param region 1 for the tiles of the plane's region, row-major, at least `tiles.size()`.
   /// @param labels one `Label` a pixel, row-major; resized to the image.
-  SegmentationCounts label(const DepthView& depth, const RayTable& rays,
-                           const Eigen::Vector3d& normal, double distance,
-                           const SegmentationLimits& limits, std::vector<std::uint8_t>& labels);
+  SegmentationCounts label(const ImageInput& input, const Eigen::Vector3d& normal, double distance,
+                           const SegmentationLimits& limits, const TileMoments& tiles,
+                           const std::vector<std::uint8_t>& region,
+                           std::vector<std::uint8_t>& labels);
 
  private:
-  std::size_t countTiles(int width, int height, const std::vector<std::uint8_t>& labels);
-  std::size_t removeSpecks(int width, int height, std::size_t min_patch,
-                           std::vector<std::uint8_t>& labels);
-  std::size_t collectPiece(std::size_t tile);
+  void widen(int columns, int rows, const std::vector<std::uint8_t>& region);
 
-  int columns_ = 0;                    ///< [#] tiles
-  int rows_ = 0;                       ///< [#] tiles
-  std::vector<std::uint8_t> in_tile_;  ///< [px] ground in each tile; 0 once it was visited
-  std::vector<std::size_t> piece_;     ///< tiles of the piece at hand
+  std::vector<std::uint8_t> in_row_;       ///< 1 for tiles of the region and their row neighbours
+  std::vector<std::uint8_t> near_ground_;  ///< 1 for tiles of the region and all neighbours
 };
 
 }  // namespace dominant_plane_detection

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dominant_plane_detection/noise_model.h"
+#include "dominant_plane_detection/parameters.h"
 
 namespace dominant_plane_detection {
 
@@ -11,5 +12,10 @@ struct GrowthThresholds {
   DepthThreshold epsilon;  ///< [m] square root of the largest mean square error
   DepthThreshold gamma;    ///< [m] farthest from the plane refitted with the candidate
 };
+
+/// @return the thresholds among the parameters.
+inline GrowthThresholds growthThresholds(const Parameters& parameters) {
+  return {parameters.noise, parameters.delta, parameters.epsilon, parameters.gamma};
+}
 
 }  // namespace dominant_plane_detection

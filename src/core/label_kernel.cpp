@@ -32,9 +32,15 @@ struct VectorRule {
   }
 };
 
+/// Sums over the lanes' ground pixels: their number, and their squared heights [m^2].
+struct VectorSums {
+  Vector ground, square_height;
+};
+
 /// Labels the pixels of one vector.
-/// @return [m^2] the squared heights of those that are ground, 0 elsewhere.
-HWY_INLINE Vector labelVector(const Points& points, const VectorRule& rule, std::uint8_t* labels) {
+/// @param near_ground 1 where pixels within the band are ground, otherwise 0.
+HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, std::uint8_t near_ground,
+                            VectorSums& sums, std::uint8_t* labels) {
   const Floats d;
   const hn::Rebind<std::int32_t, Floats> wide;
   const hn::Rebind<std::uint8_t, Floats> bytes;
@@ -42,35 +48,42 @@ HWY_INLINE Vector labelVector(const Points& points, const VectorRule& rule, std:
                                     hn::MulAdd(rule.normal_y, points.ray_y, rule.normal_z));
   const auto height = hn::MulAdd(points.z, along_ray, rule.distance);
   const auto band = hn::MulAdd(hn::Mul(points.z, points.z), rule.band_z2, rule.band);
-  const auto ground = hn::And(points.valid, hn::Le(hn::Abs(height), band));
+  const auto in_band = hn::And(points.valid, hn::Le(hn::Abs(height), band));
 
   const auto constant = [&](Label label) {
     return hn::Set(wide, static_cast<std::int32_t>(label));
   };
+  static_assert(static_cast<int>(Label::kUnknown) == 0 && static_cast<int>(Label::kGround) == 1,
+                "near_ground is the label");
   const auto off_plane = hn::IfThenElse(hn::RebindMask(wide, hn::Gt(height, hn::Zero(d))),
                                         constant(Label::kObstacle), constant(Label::kDropOff));
-  const auto any =
-      hn::IfThenElse(hn::RebindMask(wide, ground), constant(Label::kGround), off_plane);
+  const auto any = hn::IfThenElse(hn::RebindMask(wide, in_band),
+                                  hn::Set(wide, std::int32_t{near_ground}), off_plane);
   const auto label = hn::IfThenElseZero(hn::RebindMask(wide, points.valid), any);
   hn::StoreU(hn::DemoteTo(bytes, label), bytes, labels);
-  return hn::IfThenElseZero(ground, hn::Mul(height, height));
+  const auto ground = hn::IfThenElseZero(in_band, hn::Set(d, static_cast<float>(near_ground)));
+  sums.ground = hn::Add(sums.ground, ground);
+  sums.square_height = hn::MulAdd(hn::Mul(ground, height), height, sums.square_height);
 }
 
 template <bool kSeparable, typename Pixel>
-HWY_INLINE double labelImage(const ImageInput& input, const LabelRule& rule, std::uint8_t* labels) {
+HWY_INLINE LabelSums labelImage(const ImageInput& input, const LabelRule& rule,
+                                const std::uint8_t* near_ground, std::uint8_t* labels) {
   const Floats d;
   const VectorRule vector_rule(rule);
   const ReadingRange range = input.range;
   const int step = static_cast<int>(hn::Lanes(d));
   const int width = input.depth.width;
   const int whole = width - width % kTileSize;
-  double sum = 0.0;
+  const int columns = (width + kTileSize - 1) / kTileSize;
+  LabelSums total;
   for (int v = 0; v < input.depth.height; ++v, labels += width) {
+    const std::uint8_t* tiles = near_ground + static_cast<std::ptrdiff_t>(v / kTileSize) * columns;
     const auto row = pixelRow<kSeparable, Pixel>(input, 0, v);
-    auto squares = hn::Zero(d);
+    VectorSums sums{hn::Zero(d), hn::Zero(d)};
     for (int u = 0; u < whole; u += step) {
       const auto points = loadPoints<kSeparable>(row, u, range);
-      squares = hn::Add(squares, labelVector(points, vector_rule, labels + u));
+      labelVector(points, vector_rule, tiles[u / kTileSize], sums, labels + u);
     }
     if (whole < width) {
       PaddedRow<Pixel> padded;
@@ -79,23 +92,25 @@ HWY_INLINE double labelImage(const ImageInput& input, const LabelRule& rule, std
       std::uint8_t rest_labels[kTileSize];
       for (int i = 0; i < kTileSize; i += step) {
         const auto points = loadPoints<kSeparable>(rest, i, range);
-        squares = hn::Add(squares, labelVector(points, vector_rule, rest_labels + i));
+        labelVector(points, vector_rule, tiles[columns - 1], sums, rest_labels + i);
       }
       std::copy_n(rest_labels, width - whole, labels + whole);
     }
-    sum += static_cast<double>(hn::GetLane(hn::SumOfLanes(d, squares)));
+    total.ground += static_cast<std::size_t>(hn::GetLane(hn::SumOfLanes(d, sums.ground)));
+    total.square_height += static_cast<double>(hn::GetLane(hn::SumOfLanes(d, sums.square_height)));
   }
-  return sum;
+  return total;
 }
 
-double labelAll(const ImageInput& input, const LabelRule& rule, std::uint8_t* labels) {
+LabelSums labelAll(const ImageInput& input, const LabelRule& rule, const std::uint8_t* near_ground,
+                   std::uint8_t* labels) {
   const bool separable = input.rays.separable();
   if (input.depth.type == DepthView::Type::kUint16) {
-    return separable ? labelImage<true, std::uint16_t>(input, rule, labels)
-                     : labelImage<false, std::uint16_t>(input, rule, labels);
+    return separable ? labelImage<true, std::uint16_t>(input, rule, near_ground, labels)
+                     : labelImage<false, std::uint16_t>(input, rule, near_ground, labels);
   }
-  return separable ? labelImage<true, float>(input, rule, labels)
-                   : labelImage<false, float>(input, rule, labels);
+  return separable ? labelImage<true, float>(input, rule, near_ground, labels)
+                   : labelImage<false, float>(input, rule, near_ground, labels);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -107,8 +122,9 @@ namespace dominant_plane_detection {
 
 HWY_EXPORT(labelAll);
 
-double runLabelKernel(const ImageInput& input, const LabelRule& rule, std::uint8_t* labels) {
-  return HWY_DYNAMIC_DISPATCH(labelAll)(input, rule, labels);
+LabelSums runLabelKernel(const ImageInput& input, const LabelRule& rule,
+                         const std::uint8_t* near_ground, std::uint8_t* labels) {
+  return HWY_DYNAMIC_DISPATCH(labelAll)(input, rule, near_ground, labels);
 }
 
 }  // namespace dominant_plane_detection

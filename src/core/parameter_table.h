@@ -61,11 +61,16 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
   visit(
       Info{"gamma_sigmas", "-", 0, 100, "farthest a candidate may be from the plane, in sigma(z)"},
       p.gamma.sigmas);
+  visit(Info{"join_pieces", "-", 0, 1,
+             "pieces of the plane beyond a gap wider than delta join the region"},
+        p.join_pieces);
   visit(Info{"ground_band", "m", 0, 1, "largest height of a ground pixel, constant part"},
         p.ground_band.offset);
   visit(Info{"ground_band_sigmas", "-", 0, 100, "largest height of a ground pixel, in sigma(z)"},
         p.ground_band.sigmas);
-  visit(Info{"min_patch", "px", 0, 1000000, "smallest connected piece of ground"}, p.min_patch);
+  visit(Info{"min_patch", "px", 0, 1000000,
+             "smallest connected piece of ground, if the image had 640 x 480 pixels"},
+        p.min_patch);
   visit(
       Info{"min_share", "-", 0, 1, "smallest plane, as a share of the pixels with a trusted depth"},
       p.min_share);

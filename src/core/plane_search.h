@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/grid_region_growing.h"
+#include "core/growth_thresholds.h"
 #include "core/image_kernel.h"
 #include "core/kdtree_region_growing.h"
 #include "core/plane_selection.h"
@@ -14,35 +14,6 @@
 #include "dominant_plane_detection/parameters.h"
 
 namespace dominant_plane_detection {
-
-/// Seeds are drawn from the lower half of the image (section III.C), where the ground is most
-/// likely; from the upper half only when the lower one gave no plane. No further seed is drawn once
-/// no region that is left can be larger than the best. Each search returns the number of seeds it
-/// tried.
-
-/// @return the thresholds among the parameters.
-inline GrowthThresholds growthThresholds(const Parameters& parameters) {
-  return {parameters.noise, parameters.delta, parameters.epsilon, parameters.gamma};
-}
-
-/// Grows regions of tiles.
-class GridSearch {
- public:
-  std::size_t run(const TileMoments& tiles, const Parameters& parameters,
-                  PlaneSelection& selection);
-
- private:
-  /// Which seeds regions are grown from.
-  enum class Seeds {
-    kPromising,  ///< those whose tiles are not clearly too tilted to be ground
-    kAll,
-  };
-  std::size_t search(const TileMoments& tiles, const Parameters& parameters, Seeds seeds,
-                     PlaneSelection& selection);
-
-  GridRegionGrowing growing_;
-  RandomDraw draw_;
-};
 
 /// Grows regions of points: every n-th one of every n-th row.
 class KdtreeSearch {

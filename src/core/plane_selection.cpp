@@ -6,15 +6,19 @@
 
 namespace dominant_plane_detection {
 
-void PlaneSelection::consider(const HessePlane& plane, std::size_t points) {
-  const bool large = points >= std::max<std::size_t>(limits_.min_points, 1);
+bool PlaneSelection::consider(const HessePlane& plane, std::size_t points) {
+  const bool large = points >= minPoints();
   const State verdict = large ? checkPose(plane) : State::kTooSmall;
   if (verdict == State::kFound) {
-    if (points > best_.points) best_ = {plane, points};
-  } else if (points > refused_.points) {
+    if (points <= best_.points) return false;
+    best_ = {plane, points};
+    return true;
+  }
+  if (points > refused_.points) {
     refused_ = {plane, points};
     refusal_ = verdict;
   }
+  return false;
 }
 
 bool PlaneSelection::clearlyTooTilted(const HessePlane& plane) const {
@@ -42,8 +46,9 @@ void PlaneSelection::explain(std::size_t seeds_tried, std::array<char, 256>& sen
   };
   switch (refusal_) {
     case State::kTooSmall:
-      print("The largest plane holds %zu pixels, fewer than the required %zu (min_share).",
-            refused_.points, limits_.min_points);
+      print(
+          "The largest plane holds %zu pixels, fewer than the required %zu (min_share, min_patch).",
+          refused_.points, limits_.min_points);
       break;
     case State::kTooTilted:
       print(

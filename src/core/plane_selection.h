@@ -27,7 +27,8 @@ class PlaneSelection {
   explicit PlaneSelection(const PlaneLimits& limits) : limits_(limits) {}
 
   /// @param points [px] that lie on the plane.
-  void consider(const HessePlane& plane, std::size_t points);
+  /// @return whether it is the one to keep.
+  bool consider(const HessePlane& plane, std::size_t points);
 
   /// @param plane of a few tiles, not yet grown.
   /// @return whether it is tilted by so much more than allowed that growing cannot make it right.
@@ -36,6 +37,7 @@ class PlaneSelection {
   bool found() const { return best_.points > 0; }
   const HessePlane& plane() const { return best_.plane; }
   std::size_t points() const { return best_.points; }  ///< [px] 0 when nothing was found
+  std::size_t minPoints() const { return std::max<std::size_t>(limits_.min_points, 1); }  ///< [px]
   /// @return [px] what a plane needs at least to be selected.
   std::size_t toBeat() const { return std::max(best_.points, limits_.min_points); }
 

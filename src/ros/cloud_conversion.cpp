@@ -92,8 +92,8 @@ std::optional<CloudReader::Image> CloudReader::read(const pcl::PointCloud<pcl::P
 sensor_msgs::PointCloud2Ptr labelledPoints(const DepthView& depth, const RayTable& rays,
                                            const Detection& detection, Label label) {
   pcl::PointCloud<pcl::PointXYZ> cloud;
-  for (int v = 0; v < detection.height; ++v) {
-    for (int u = 0; u < detection.width; ++u) {
+  for (int v = 0; v < detection.image_height; ++v) {
+    for (int u = 0; u < detection.image_width; ++u) {
       if (detection.label(u, v) != label) continue;
       const Eigen::Vector3f point = metresAt(depth, u, v) * rays.ray(u, v);
       cloud.push_back({point.x(), point.y(), point.z()});

@@ -41,8 +41,8 @@ sensor_msgs::ImagePtr maskMessage(const std_msgs::Header& header, const Detectio
   auto message = boost::make_shared<sensor_msgs::Image>();
   message->header = header;
   message->encoding = sensor_msgs::image_encodings::MONO8;
-  message->width = static_cast<std::uint32_t>(detection.width);
-  message->height = static_cast<std::uint32_t>(detection.height);
+  message->width = static_cast<std::uint32_t>(detection.image_width);
+  message->height = static_cast<std::uint32_t>(detection.image_height);
   message->step = message->width;
   message->data.resize(detection.labels.size());
   constexpr auto kGround = static_cast<std::uint8_t>(Label::kGround);

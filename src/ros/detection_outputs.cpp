@@ -107,7 +107,7 @@ void DetectionOutputs::prepareOverlay(const DetectionInputs::Frame& frame,
 void DetectionOutputs::publishWaitingOverlay(const DetectionInputs& inputs) {
   if (!waiting_) return;
   const auto picture =
-      inputs.picture(waiting_->header, waiting_->detection.width, waiting_->detection.height);
+      inputs.picture(waiting_->header, waiting_->detection.image_width, waiting_->detection.image_height);
   if (picture) publishOverlay(picture);
 }
 

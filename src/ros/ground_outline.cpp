@@ -16,9 +16,9 @@ struct Basis {
 /// @return the outermost ground pixels of each row: their hull is that of all.
 std::vector<Eigen::Vector2i> rowEnds(const Detection& detection) {
   std::vector<Eigen::Vector2i> ends;
-  for (int v = 0; v < detection.height; ++v) {
+  for (int v = 0; v < detection.image_height; ++v) {
     int left = 0;
-    int right = detection.width - 1;
+    int right = detection.image_width - 1;
     while (left <= right && detection.label(left, v) != Label::kGround) ++left;
     while (right > left && detection.label(right, v) != Label::kGround) --right;
     if (left > right) continue;

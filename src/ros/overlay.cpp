@@ -33,8 +33,8 @@ cv::Mat greyPicture(const DepthView& depth) {
 }
 
 void paintOverlay(const Detection& detection, cv::Mat& picture) {
-  for (int v = 0; v < detection.height; ++v) {
-    for (int u = 0; u < detection.width; ++u) {
+  for (int v = 0; v < detection.image_height; ++v) {
+    for (int u = 0; u < detection.image_width; ++u) {
       cv::Vec3b& pixel = picture.at<cv::Vec3b>(v, u);
       switch (detection.label(u, v)) {
         case Label::kGround:

@@ -14,7 +14,7 @@ namespace {
 
 cv::Mat groundMask(const Detection& detection) {
   // OpenCV takes no const data; nothing writes to it.
-  const cv::Mat labels(detection.height, detection.width, CV_8UC1,
+  const cv::Mat labels(detection.image_height, detection.image_width, CV_8UC1,
                        const_cast<std::uint8_t*>(detection.labels.data()));
   return labels == static_cast<std::uint8_t>(Label::kGround);
 }

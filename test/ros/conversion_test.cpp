@@ -299,8 +299,8 @@ class Outline : public testing::Test {
     detection_.state = State::kFound;
     detection_.normal = upOf(0.6, 0.1);
     detection_.distance = 0.8;
-    detection_.width = camera_.width;
-    detection_.height = camera_.height;
+    detection_.image_width = camera_.width;
+    detection_.image_height = camera_.height;
     detection_.labels.assign(640 * 480, static_cast<std::uint8_t>(Label::kUnknown));
   }
   void markGround(int u, int v) {

@@ -55,8 +55,8 @@ Detection asDetection(const DominantPlane& plane, const sensor_msgs::Image& mask
   detection.state = static_cast<State>(plane.state);
   detection.normal = {plane.normal.x, plane.normal.y, plane.normal.z};
   detection.distance = plane.distance;
-  detection.width = static_cast<int>(mask.width);
-  detection.height = static_cast<int>(mask.height);
+  detection.image_width = static_cast<int>(mask.width);
+  detection.image_height = static_cast<int>(mask.height);
   for (const std::uint8_t pixel : mask.data) {
     detection.labels.push_back(
         static_cast<std::uint8_t>(pixel == 255 ? Label::kGround : Label::kUnknown));

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/piece_joining.h"
+#include "core/plane_refinement.h"
+#include "core/plane_selection.h"
+#include "core/seed_selection.h"
+#include "core/surface_check.h"
+#include "core/tile_growth.h"
+#include "core/tile_judge.h"
+#include "core/tile_limits.h"
+#include "dominant_plane_detection/detection.h"
+#include "dominant_plane_detection/parameters.h"
+
+namespace dominant_plane_detection {
+
+/// Grows regions of tiles, and keeps that of the selected plane.
+class GridSearch {
+ public:
+  /// @param tile_angle [rad] that a tile's side subtends in the middle of the image.
+  /// @param min_piece [px] smallest piece that joins a region beyond a gap.
+  void run(const TileMoments& tiles, double tile_angle, std::size_t min_piece,
+           const Parameters& parameters, PlaneSelection& selection, Effort& effort);
+
+  /// Collects the tiles of a plane that was found otherwise: all pieces that would join a region of
+  /// it, or the largest of them alone.
+  void collectGround(const TileMoments& tiles, double tile_angle, std::size_t min_piece,
+                     const Parameters& parameters, const HessePlane& plane);
+
+  /// @return 1 for the tiles of the selected plane's region, padded like the moments.
+  /// @pre the last `run` found a plane, or `collectGround` was called.
+  const std::vector<std::uint8_t>& ground() const { return ground_; }
+
+ private:
+  /// Which seeds regions are grown from.
+  enum class Seeds {
+    kPromising,  ///< those whose tiles are not clearly too tilted to be ground
+    kAll,
+  };
+  void start(const TileMoments& tiles, double tile_angle, std::size_t min_piece,
+             const Parameters& parameters);
+  void markGround(std::size_t begin, std::size_t end);
+  void search(const Parameters& parameters, Seeds seeds, PlaneSelection& selection);
+  bool available(std::size_t tile) const {
+    return tiles_->count[tile] >= kMinReadings && !taken_[tile] && !seeded_[tile];
+  }
+  void tryRegion(std::size_t tile, Seeds seeds, PlaneSelection& selection);
+  void finishRegion(const TileRegion& grown, PlaneSelection& selection);
+  void collectLargest(const TileRegion& grown);
+  void take(std::size_t tile);
+
+  const TileMoments* tiles_ = nullptr;
+  TileLimits limits_;
+  TileJudge judge_;
+  TileGrowth growth_;   ///< of the region that a seed gives
+  TileGrowth collect_;  ///< of what it is on its final plane
+  TileRegion region_;
+  SurfaceCheck check_;
+  PieceJoining pieces_;
+  RandomDraw draw_;
+  bool join_pieces_ = true;
+  std::size_t min_piece_ = 0;         ///< [px]
+  std::vector<std::uint8_t> taken_;   ///< 1 for tiles of regions: they neither seed nor join
+  std::vector<std::uint8_t> seeded_;  ///< 1 for tiles that were seeds
+  std::vector<std::uint8_t> seen_;    ///< 1 for tiles taken or collected
+  std::size_t available_points_ = 0;  ///< [px] in tiles that are not taken
+  std::vector<std::uint8_t> ground_;
+  Effort* effort_ = nullptr;
+};
+
+}  // namespace dominant_plane_detection

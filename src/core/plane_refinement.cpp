@@ -1,0 +1,111 @@
+#include "core/plane_refinement.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace dominant_plane_detection {
+namespace {
+
+/// [-] Widths of the weights in sigma(z), and steps at each of them.
+constexpr std::array<float, 3> kWidths{1.5F, 0.7F, 0.35F};
+constexpr int kStepsEach = 2;
+/// Steps of the least squares; a plane that moves by less than the last two numbers, far below any
+/// sensor's noise, is final.
+constexpr int kMaxSteps = 4;
+constexpr double kFinalNormal = 1e-4;    // [rad]
+constexpr double kFinalDistance = 1e-4;  // [m]
+/// Smallest reciprocal condition of the normal equations that still tell a plane.
+constexpr double kMinCondition = 1e-7;
+/// [-] A quarter of normally distributed numbers is within this many standard deviations.
+constexpr float kQuartile = 0.3186F;
+/// [-] Standard deviations that belong to the surface; the scatter may double with distance.
+constexpr float kScatters = 4.0F;
+/// [-] Smallest level in sigma(z); the scatter of exact readings is 0.
+constexpr float kMinLevel = 0.3F;
+
+struct Step {
+  HessePlane plane;
+  bool final;
+};
+
+/// A Gauss-Newton step on the weighted sum of squared distances; the solution is that of the
+/// weighted fit by moments.
+std::optional<Step> step(const TileJudge& judge, const TileRegion& region, const HessePlane& plane,
+                         float level, float width) {
+  const Eigen::Vector3d centre = judge.tiles().centre(region.tiles.front());
+  const PlaneTest test{PlaneFrame::of(plane, centre), level};
+  const PlaneResiduals residuals =
+      runResidualKernel(judge.tiles(), judge.limits(), test, width, region.member);
+  const Eigen::LDLT<Eigen::Matrix3d> solver(residuals.normal_matrix);
+  // A single tile, or tiles in one line, do not determine a plane.
+  if (residuals.points == 0 || !(solver.rcond() > kMinCondition)) return std::nullopt;
+  const Eigen::Vector3d change = solver.solve(residuals.right);  // p, q, c
+  const Eigen::Matrix3d axes = test.frame.axes.cast<double>();
+  const Eigen::Vector3d normal =
+      (axes.col(2) - change[0] * axes.col(0) - change[1] * axes.col(1)).normalized();
+  const Eigen::Vector3d origin = test.frame.origin.cast<double>() + change[2] * axes.col(2);
+  return Step{HessePlane::through(origin, normal),
+              change.head<2>().norm() < kFinalNormal && std::abs(change[2]) < kFinalDistance};
+}
+
+/// @return [-] the scatter of the region's tiles about a plane, in sigma(z), where they are
+/// densest.
+float scatterAbout(const TileJudge& judge, const TileRegion& region, const HessePlane& plane) {
+  constexpr float kBins = 64.0F, kEnd = 3.2F;  // [#], [-]: finer than kMinLevel needs
+  std::array<float, 65> points{};              // what is beyond the end comes last
+  const TileMoments& tiles = judge.tiles();
+  const Eigen::Vector3f normal = plane.normal.cast<float>();
+  const auto distance = static_cast<float>(plane.distance);
+  float total = 0.0F;
+  for (const std::size_t tile : region.tiles) {
+    const float height = normal.x() * tiles.x[tile] + normal.y() * tiles.y[tile] +
+                         normal.z() * tiles.z[tile] - distance;
+    const float bin = std::abs(height) * judge.limits().inverse_sigma[tile] * (kBins / kEnd);
+    points[static_cast<std::size_t>(std::min(bin, kBins))] += tiles.count[tile];
+    total += tiles.count[tile];
+  }
+  float below = 0.0F;
+  std::size_t bin = 0;
+  while (below + points[bin] < 0.25F * total) below += points[bin++];
+  const float within = (0.25F * total - below) / points[bin];
+  return (static_cast<float>(bin) + within) * (kEnd / kBins) / kQuartile;
+}
+
+}  // namespace
+
+std::optional<RefinedPlane> fitPlane(const TileJudge& judge, const TileRegion& region,
+                                     const HessePlane& start, float level) {
+  RefinedPlane result{start, level};
+  while (result.fits < kMaxSteps) {
+    const auto next =
+        step(judge, region, result.plane, level, std::numeric_limits<float>::infinity());
+    if (!next) return std::nullopt;
+    result.plane = next->plane;
+    ++result.fits;
+    if (next->final) break;
+  }
+  return result;
+}
+
+std::optional<RefinedPlane> refinePlane(const TileJudge& judge, const TileRegion& region) {
+  HessePlane mode = region.plane;
+  std::size_t fits = 0;
+  for (const float width : kWidths) {
+    for (int i = 0; i < kStepsEach; ++i) {
+      const auto next = step(judge, region, mode, std::numeric_limits<float>::infinity(), width);
+      if (!next) return std::nullopt;
+      mode = next->plane;
+      ++fits;
+      if (next->final) break;
+    }
+  }
+  const float level = std::max(kMinLevel, kScatters * scatterAbout(judge, region, mode));
+  std::optional<RefinedPlane> result = fitPlane(judge, region, mode, level);
+  if (result) result->fits += fits;
+  return result;
+}
+
+}  // namespace dominant_plane_detection

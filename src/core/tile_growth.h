@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/plane_moments.h"
+#include "core/tile_judge.h"
+#include "core/tile_seed.h"
+
+namespace dominant_plane_detection {
+
+/// Tiles that hang together and lie on one plane.
+struct TileRegion {
+  HessePlane plane;
+  std::size_t points = 0;            ///< [px]
+  std::vector<std::size_t> tiles;    ///< in the order they joined
+  std::vector<std::uint8_t> member;  ///< 1 for these, padded like the moments
+};
+
+/// The region growing of section III.B over image tiles: what joins the region is a tile of points
+/// at a time, whose moments merge as in Eq. 10.
+///
+/// The three thresholds keep their meaning. delta: a tile's points come closer than this to the
+/// region's; neighbours in the image come first, then tiles beyond a gap in the image that is
+/// narrower than this in space. epsilon: the mean square error of region and tile together stays
+/// below the mean of epsilon(z)^2 over their points. gamma: the tile's points are closer than this
+/// to the plane (see `PlaneTest`).
+class TileGrowth {
+ public:
+  /// @param tile_angle [rad] that a tile's side subtends in the middle of the image.
+  void start(const TileMoments& tiles, double tile_angle);
+
+  /// Grows a region whose plane is fitted again whenever it has grown by half: fewer points hardly
+  /// turn it, and any plane's error bounds that of the best one, lambda_min(A) <= m^T A m.
+  /// @param judge is left with the region's plane.
+  /// @param taken 1 for tiles of other regions, which do not join.
+  const TileRegion& grow(TileJudge& judge, const TileSeed& seed,
+                         const std::vector<std::uint8_t>& taken);
+
+  /// Grows a region on the judge's plane, which stays.
+  /// @param first where it starts.
+  /// @pre first is on the plane, and not taken.
+  const TileRegion& collect(TileJudge& judge, std::size_t first,
+                            const std::vector<std::uint8_t>& taken);
+
+  /// @return [#] of plane fits that the last `grow` made.
+  std::size_t fits() const { return fits_; }
+
+ private:
+  enum class Plane { kGrows, kStays };
+  struct Box {  ///< of tiles, its ends included
+    int left, top, right, bottom;
+  };
+
+  void clear();
+  void join(const TileJudge& judge, std::size_t tile, Plane plane);
+  void tryToJoin(const TileJudge& judge, std::size_t tile, std::size_t from, Plane plane,
+                 const std::vector<std::uint8_t>& taken);
+  void spread(TileJudge& judge, Plane plane, const std::vector<std::uint8_t>& taken);
+  bool bridgeGaps(TileJudge& judge, Plane plane, const std::vector<std::uint8_t>& taken);
+  std::size_t closeMember(const TileJudge& judge, std::size_t tile) const;
+  int reach(const TileJudge& judge, std::size_t tile) const;
+  void refit(TileJudge& judge);
+
+  int columns_ = 0;
+  int rows_ = 0;
+  float tile_angle_ = 0.0F;
+  TileRegion region_;
+  Box box_{};      ///< of the region
+  int reach_ = 0;  ///< [tile] how far from it in the image a tile within delta can be
+  PlaneMoments moments_;
+  double fitted_count_ = 0.0;  ///< [px] in the region at the last fit
+  double sum_epsilon2_ = 0.0;  ///< [m^2] over the region's points
+  double sum_square_ = 0.0;    ///< [m^2] of their heights over the planes they were judged by
+  std::size_t fits_ = 0;
+};
+
+}  // namespace dominant_plane_detection
