@@ -9,6 +9,7 @@
 
 #include "core/grid_search.h"
 #include "core/ground_segmentation.h"
+#include "core/kdtree_search.h"
 #include "core/plane_search.h"
 #include "core/plane_selection.h"
 #include "core/ray_table.h"

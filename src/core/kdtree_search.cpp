@@ -1,8 +1,8 @@
+#include "core/kdtree_search.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "core/plane_search.h"
 
 namespace dominant_plane_detection {
 namespace {

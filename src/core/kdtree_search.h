@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/growth_thresholds.h"
 #include "core/image_kernel.h"
 #include "core/kdtree_region_growing.h"
 #include "core/plane_selection.h"
