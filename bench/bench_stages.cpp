@@ -7,7 +7,7 @@
 
 #include "core/disparity_table.h"
 #include "core/ground_segmentation.h"
-#include "core/plane_search.h"
+#include "core/grid_search.h"
 #include "core/ray_table.h"
 #include "core/tile_moments.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"

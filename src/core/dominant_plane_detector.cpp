@@ -10,7 +10,6 @@
 #include "core/grid_search.h"
 #include "core/ground_segmentation.h"
 #include "core/kdtree_search.h"
-#include "core/plane_search.h"
 #include "core/plane_selection.h"
 #include "core/ray_table.h"
 #include "core/tile_moments.h"
@@ -100,14 +99,13 @@ class DominantPlaneDetector::Implementation {
 
  private:
   void search(const ImageInput& input, PlaneSelection& selection) {
-    const double tile_angle = kTileSize / std::max(rays_.camera().fx, rays_.camera().fy);
+    const GridSearch::Image image{tiles_, rays_.camera(), minPatch()};
     if (parameters_.algorithm == Algorithm::kGrid) {
-      grid_.run(tiles_, tile_angle, minPatch(), parameters_, selection, detection_.effort);
+      grid_.run(image, parameters_, selection, detection_.effort);
       return;
     }
     detection_.effort.seeds = kdtree_.run(input, parameters_, selection);
-    if (!selection.found()) return;
-    grid_.collectGround(tiles_, tile_angle, minPatch(), parameters_, selection.plane());
+    if (selection.found()) grid_.collectGround(image, parameters_, selection.plane());
   }
 
   /// @return [px] smallest piece of ground in an image of this size.
@@ -150,9 +148,9 @@ class DominantPlaneDetector::Implementation {
     detection_.state = state;
     detection_.reason.assign(sentence.data());
     detection_.valid_pixels = 0;
-    detection_.labels.assign(
-        static_cast<std::size_t>(detection_.image_width) * static_cast<std::size_t>(detection_.image_height),
-        static_cast<std::uint8_t>(Label::kUnknown));
+    detection_.labels.assign(static_cast<std::size_t>(detection_.image_width) *
+                                 static_cast<std::size_t>(detection_.image_height),
+                             static_cast<std::uint8_t>(Label::kUnknown));
     return detection_;
   }
 

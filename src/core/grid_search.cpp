@@ -3,66 +3,63 @@
 #include <algorithm>
 
 namespace dominant_plane_detection {
+namespace {
 
-void GridSearch::run(const TileMoments& tiles, double tile_angle, std::size_t min_piece,
-                     const Parameters& parameters, PlaneSelection& selection, Effort& effort) {
+/// @return [rad] that a tile's side subtends in the middle of the image.
+double tileAngle(const CameraModel& camera) { return kTileSize / std::max(camera.fx, camera.fy); }
+
+}  // namespace
+
+void GridSearch::run(const Image& image, const Parameters& parameters, PlaneSelection& selection,
+                     Effort& effort) {
+  selection_ = &selection;
   effort_ = &effort;
-  start(tiles, tile_angle, min_piece, parameters);
-  growth_.start(tiles, tile_angle);
-  collect_.start(tiles, tile_angle);
-  search(parameters, Seeds::kPromising, selection);
+  start(image, parameters);
+  growth_.start(image.tiles, tileAngle(image.camera));
+  collect_.start(image.tiles, tileAngle(image.camera));
+  order_.build(tiles_->columns, tiles_->rows, {image.camera.fx, image.camera.fy},
+               selection.limits().expected_up);
+  search(parameters, Seeds::kPromising);
   if (selection.found() || effort.seeds == 0) return;
   // Walls may have taken all the seeds; and to say why there is no ground, the planes that are none
   // have to be looked at.
-  search(parameters, Seeds::kAll, selection);
+  search(parameters, Seeds::kAll);
 }
 
-void GridSearch::start(const TileMoments& tiles, double tile_angle, std::size_t min_piece,
-                       const Parameters& parameters) {
-  tiles_ = &tiles;
+void GridSearch::start(const Image& image, const Parameters& parameters) {
+  tiles_ = &image.tiles;
   join_pieces_ = parameters.join_pieces;
-  min_piece_ = min_piece;
-  limits_.set(tiles, growthThresholds(parameters));
-  judge_.start(tiles, limits_);
-  pieces_.start(tiles, tile_angle);
-  taken_.assign(tiles.count.size(), 0);
-}
-
-void GridSearch::collectGround(const TileMoments& tiles, double tile_angle, std::size_t min_piece,
-                               const Parameters& parameters, const HessePlane& plane) {
-  start(tiles, tile_angle, min_piece, parameters);
-  judge_.setPlane(plane, plane.distance * plane.normal);
-  region_.tiles.clear();
-  const auto& pieces = pieces_.join(judge_, plane, min_piece, taken_, region_.tiles);
-  if (join_pieces_ || pieces.empty()) return markGround(0, region_.tiles.size());
-  const auto largest =
-      std::max_element(pieces.begin(), pieces.end(),
-                       [](const auto& a, const auto& b) { return a.points < b.points; });
-  markGround(largest->begin, largest->end);
-}
-
-void GridSearch::search(const Parameters& parameters, Seeds seeds, PlaneSelection& selection) {
+  min_piece_ = image.min_piece;
+  limits_.set(*tiles_, growthThresholds(parameters));
+  judge_.start(*tiles_, limits_);
+  pieces_.start(*tiles_, tileAngle(image.camera));
   taken_.assign(tiles_->count.size(), 0);
+}
+
+void GridSearch::search(const Parameters& parameters, Seeds seeds) {
+  seeds_ = seeds;
+  std::fill(taken_.begin(), taken_.end(), std::uint8_t{0});
   seeded_.assign(tiles_->count.size(), 0);
   available_points_ = 0;
   for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
     if (available(tile)) available_points_ += static_cast<std::size_t>(tiles_->count[tile]);
   }
   draw_.restart(static_cast<std::uint32_t>(parameters.random_seed));
-  const auto columns = static_cast<std::size_t>(tiles_->columns);
-  const std::size_t lower_half = static_cast<std::size_t>(tiles_->rows / 2) * columns;
-  const std::size_t limit = effort_->seeds + static_cast<std::size_t>(parameters.seeds);
-  const auto search_range = [&](std::size_t begin, std::size_t end) {
-    draw_.setRange(begin, end);
-    while (effort_->seeds < limit && !draw_.empty() && available_points_ > selection.points()) {
-      const std::size_t seed = draw_.draw();
-      if (!available(seed)) continue;
-      ++effort_->seeds;
-      tryRegion(seed, seeds, selection);
-    }
-  };
-  search_range(lower_half, tiles_->size());
-  search_range(0, lower_half);
+  effort_->seeds +=
+      searchSeeds(order_, static_cast<std::size_t>(parameters.seeds), *selection_, draw_, *this);
+}
+
+void GridSearch::collectGround(const Image& image, const Parameters& parameters,
+                               const HessePlane& plane) {
+  start(image, parameters);
+  judge_.setPlane(plane, plane.distance * plane.normal);
+  region_.tiles.clear();
+  const auto& pieces = pieces_.join(judge_, plane, min_piece_, taken_, region_.tiles);
+  if (join_pieces_ || pieces.empty()) return markGround(0, region_.tiles.size());
+  const auto largest =
+      std::max_element(pieces.begin(), pieces.end(),
+                       [](const auto& a, const auto& b) { return a.points < b.points; });
+  markGround(largest->begin, largest->end);
 }
 
 void GridSearch::take(std::size_t tile) {
@@ -71,29 +68,30 @@ void GridSearch::take(std::size_t tile) {
   available_points_ -= static_cast<std::size_t>(tiles_->count[tile]);
 }
 
-void GridSearch::tryRegion(std::size_t tile, Seeds seeds, PlaneSelection& selection) {
+bool GridSearch::tryRegion(std::size_t tile) {
   seeded_[tile] = 1;
   const std::optional<TileSeed> seed = fitSeed(judge_, taken_, tile);
   ++effort_->fits;
-  if (!seed) return;
-  if (seeds == Seeds::kPromising && selection.clearlyTooTilted(seed->fit.plane)) {
+  if (!seed) return true;
+  if (seeds_ == Seeds::kPromising && selection_->clearlyTooTilted(seed->fit.plane)) {
     std::for_each_n(seed->tiles.begin(), seed->count, [&](std::size_t t) { take(t); });
-    return;
+    return true;
   }
   const TileRegion& grown = growth_.grow(judge_, *seed, taken_);
   ++effort_->regions;
   effort_->joined += grown.tiles.size();
   effort_->fits += growth_.fits();
-  if (grown.points < selection.toBeat() / 2) {
+  if (grown.points < selection_->toBeat() / 2) {
     // What is far from being the largest even now will not become so.
-    selection.consider(grown.plane, grown.points);
-    return;
+    selection_->consider(grown.plane, grown.points);
+  } else {
+    finishRegion(grown);
   }
-  finishRegion(grown, selection);
+  return true;
 }
 
 /// Fits the plane to the one surface in what was grown, and decides again what belongs to it.
-void GridSearch::finishRegion(const TileRegion& grown, PlaneSelection& selection) {
+void GridSearch::finishRegion(const TileRegion& grown) {
   const std::optional<RefinedPlane> mode = refinePlane(judge_, grown);
   if (!mode) return;
   judge_.setPlane(mode->plane, tiles_->centre(grown.tiles.front()), mode->level);
@@ -114,7 +112,7 @@ void GridSearch::finishRegion(const TileRegion& grown, PlaneSelection& selection
     }
   }
   effort_->joined += region_.tiles.size();
-  if (selection.consider(region_.plane, region_.points)) markGround(0, region_.tiles.size());
+  if (selection_->consider(region_.plane, region_.points)) markGround(0, region_.tiles.size());
 }
 
 void GridSearch::markGround(std::size_t begin, std::size_t end) {

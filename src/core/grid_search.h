@@ -7,7 +7,7 @@
 #include "core/piece_joining.h"
 #include "core/plane_refinement.h"
 #include "core/plane_selection.h"
-#include "core/seed_selection.h"
+#include "core/seed_search.h"
 #include "core/surface_check.h"
 #include "core/tile_growth.h"
 #include "core/tile_judge.h"
@@ -18,17 +18,22 @@
 namespace dominant_plane_detection {
 
 /// Grows regions of tiles, and keeps that of the selected plane.
-class GridSearch {
+class GridSearch : private RegionSource {
  public:
-  /// @param tile_angle [rad] that a tile's side subtends in the middle of the image.
-  /// @param min_piece [px] smallest piece that joins a region beyond a gap.
-  void run(const TileMoments& tiles, double tile_angle, std::size_t min_piece,
-           const Parameters& parameters, PlaneSelection& selection, Effort& effort);
+  /// What the search looks at.
+  struct Image {
+    const TileMoments& tiles;
+    const CameraModel& camera;
+    std::size_t min_piece;  ///< [px] smallest piece that joins a region beyond a gap
+  };
+
+  /// @param effort is added to.
+  void run(const Image& image, const Parameters& parameters, PlaneSelection& selection,
+           Effort& effort);
 
   /// Collects the tiles of a plane that was found otherwise: all pieces that would join a region of
   /// it, or the largest of them alone.
-  void collectGround(const TileMoments& tiles, double tile_angle, std::size_t min_piece,
-                     const Parameters& parameters, const HessePlane& plane);
+  void collectGround(const Image& image, const Parameters& parameters, const HessePlane& plane);
 
   /// @return 1 for the tiles of the selected plane's region, padded like the moments.
   /// @pre the last `run` found a plane, or `collectGround` was called.
@@ -40,15 +45,15 @@ class GridSearch {
     kPromising,  ///< those whose tiles are not clearly too tilted to be ground
     kAll,
   };
-  void start(const TileMoments& tiles, double tile_angle, std::size_t min_piece,
-             const Parameters& parameters);
+  void start(const Image& image, const Parameters& parameters);
   void markGround(std::size_t begin, std::size_t end);
-  void search(const Parameters& parameters, Seeds seeds, PlaneSelection& selection);
-  bool available(std::size_t tile) const {
+  void search(const Parameters& parameters, Seeds seeds);
+  bool available(std::size_t tile) const override {
     return tiles_->count[tile] >= kMinReadings && !taken_[tile] && !seeded_[tile];
   }
-  void tryRegion(std::size_t tile, Seeds seeds, PlaneSelection& selection);
-  void finishRegion(const TileRegion& grown, PlaneSelection& selection);
+  std::size_t availablePoints() const override { return available_points_; }
+  bool tryRegion(std::size_t tile) override;
+  void finishRegion(const TileRegion& grown);
   void collectLargest(const TileRegion& grown);
   void take(std::size_t tile);
 
@@ -60,6 +65,7 @@ class GridSearch {
   TileRegion region_;
   SurfaceCheck check_;
   PieceJoining pieces_;
+  SeedOrder order_;
   RandomDraw draw_;
   bool join_pieces_ = true;
   std::size_t min_piece_ = 0;         ///< [px]
@@ -68,6 +74,8 @@ class GridSearch {
   std::vector<std::uint8_t> seen_;    ///< 1 for tiles taken or collected
   std::size_t available_points_ = 0;  ///< [px] in tiles that are not taken
   std::vector<std::uint8_t> ground_;
+  Seeds seeds_ = Seeds::kPromising;
+  PlaneSelection* selection_ = nullptr;
   Effort* effort_ = nullptr;
 };
 

@@ -34,6 +34,7 @@ class PlaneSelection {
   /// @return whether it is tilted by so much more than allowed that growing cannot make it right.
   bool clearlyTooTilted(const HessePlane& plane) const;
 
+  const PlaneLimits& limits() const { return limits_; }
   bool found() const { return best_.points > 0; }
   const HessePlane& plane() const { return best_.plane; }
   std::size_t points() const { return best_.points; }  ///< [px] 0 when nothing was found
