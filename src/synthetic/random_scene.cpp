@@ -1,10 +1,10 @@
 #include "synthetic/random_scene.h"
 
 #include <algorithm>
-#include <random>
 
 #include "dominant_plane_detection/detection.h"
 #include "synthetic/renderer.h"
+#include "synthetic/scene_random.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -12,17 +12,6 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 constexpr double kMinFloor = 0.08;  // [-] share of the image
-
-class Generator {
- public:
-  explicit Generator(std::uint32_t seed) : generator_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * std::uniform_real_distribution<double>()(generator_);
-  }
-
- private:
-  std::mt19937 generator_;
-};
 
 void place(Scene& scene, TriangleMesh mesh, const Eigen::Vector3d& position, double yaw,
            const Eigen::Vector3d& colour) {
@@ -36,7 +25,7 @@ void place(Scene& scene, TriangleMesh mesh, const Eigen::Vector3d& position, dou
   scene.objects.push_back(std::move(object));
 }
 
-void addRoom(Scene& scene, Generator& random) {
+void addRoom(Scene& scene, SceneRandom& random) {
   SceneObject floor;
   floor.mesh = rectangleMesh(30.0, 30.0);
   floor.ground = true;
@@ -51,7 +40,7 @@ void addRoom(Scene& scene, Generator& random) {
   }
 }
 
-void addThings(Scene& scene, Generator& random) {
+void addThings(Scene& scene, SceneRandom& random) {
   const int count = static_cast<int>(random.between(2.0, 9.0));
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d colour(random.between(0.2, 0.9), random.between(0.2, 0.9),
@@ -67,7 +56,7 @@ void addThings(Scene& scene, Generator& random) {
   }
 }
 
-Scene draw(std::uint32_t seed, Generator& random) {
+Scene draw(std::uint32_t seed, SceneRandom& random) {
   Scene scene;
   scene.camera = kinectCamera();
   KeyPose camera;
@@ -99,7 +88,7 @@ bool showsEnoughFloor(const Scene& scene) {
 }  // namespace
 
 Scene randomScene(std::uint32_t seed) {
-  Generator random(seed);
+  SceneRandom random(seed);
   while (true) {
     Scene scene = draw(seed, random);
     if (showsEnoughFloor(scene)) return scene;

@@ -80,6 +80,7 @@ class Renderer::Implementation {
     rendering.labels.resize(pixels);
     if (layers.colour) rendering.colour.resize(3 * pixels);
     if (layers.shadow) rendering.shadow.resize(pixels);
+    if (layers.surface_normals) rendering.surface_normals.resize(pixels, Eigen::Vector3f::Zero());
     // The plane z = 0, seen from the camera.
     rendering.normal = pose.linear().transpose() * Eigen::Vector3d::UnitZ();
     rendering.distance = pose.translation().z();
@@ -148,6 +149,9 @@ class Renderer::Implementation {
       rendering.labels[i] = static_cast<std::uint8_t>(label(object, point));
       if (!rendering.colour.empty()) {
         paint(object, point, normal, rendering.cosine[i], &rendering.colour[3 * i]);
+      }
+      if (!rendering.surface_normals.empty()) {
+        rendering.surface_normals[i] = pose.linear().transpose() * normal;
       }
       row.surface[u] = point + kSurfaceOffset * normal;
     }

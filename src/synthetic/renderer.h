@@ -21,6 +21,9 @@ struct Rendering {
       shadow;  ///< 1 where the projector does not shine; empty if not asked for
   std::vector<std::uint8_t> labels;  ///< `Label`; kUnknown where nothing is seen
   std::vector<std::uint8_t> colour;  ///< red, green, blue; empty if not asked for
+  /// [-] unit normals of the surfaces, towards the camera, in the optical frame; 0 where nothing is
+  /// seen, empty if not asked for
+  std::vector<Eigen::Vector3f> surface_normals;
 
   /// The ground z = 0 in the optical frame: normal . r + distance = 0, towards the camera.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -31,6 +34,7 @@ struct Rendering {
 struct Layers {
   bool shadow = false;
   bool colour = false;
+  bool surface_normals = false;
 };
 
 /// Casts rays into a scene (Embree: the ray casting library that Debian has).

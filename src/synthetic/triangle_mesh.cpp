@@ -9,6 +9,8 @@
 namespace dominant_plane_detection {
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
+
 void addQuad(TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
              std::uint32_t d) {
   mesh.triangles.push_back({a, b, c});
@@ -58,7 +60,6 @@ TriangleMesh rampMesh(const Eigen::Vector3d& size) {
 
 TriangleMesh cylinderMesh(double radius, double height) {
   constexpr std::uint32_t kSides = 72;
-  constexpr double kPi = 3.14159265358979323846;
   TriangleMesh mesh;
   const auto top = static_cast<float>(height);
   for (std::uint32_t i = 0; i < kSides; ++i) {
@@ -73,6 +74,50 @@ TriangleMesh cylinderMesh(double radius, double height) {
     const std::uint32_t next = (i + 1) % kSides;
     addQuad(mesh, 2 * i, 2 * next, 2 * next + 1, 2 * i + 1);
     mesh.triangles.push_back({2 * i + 1, 2 * next + 1, 2 * kSides});
+  }
+  return mesh;
+}
+
+TriangleMesh ellipsoidMesh(const Eigen::Vector3d& half_axes) {
+  constexpr std::uint32_t kSides = 72, kRings = 36;
+  TriangleMesh mesh;
+  for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
+    const double down = kPi * ring / kRings;
+    for (std::uint32_t side = 0; side < kSides; ++side) {
+      const double around = 2.0 * kPi * side / kSides;
+      const Eigen::Vector3d unit(std::sin(down) * std::cos(around),
+                                 std::sin(down) * std::sin(around), std::cos(down));
+      mesh.vertices.push_back(half_axes.cwiseProduct(unit).cast<float>());
+    }
+  }
+  for (std::uint32_t ring = 0; ring < kRings; ++ring) {
+    for (std::uint32_t side = 0; side < kSides; ++side) {
+      const std::uint32_t above = ring * kSides, below = above + kSides;
+      const std::uint32_t next = (side + 1) % kSides;
+      addQuad(mesh, above + side, below + side, below + next, above + next);
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh curtainMesh(double width, double height,
+                         const std::function<double(double y, double z)>& depth) {
+  constexpr double kStep = 0.01;
+  const auto columns = static_cast<std::uint32_t>(std::lround(width / kStep));
+  const auto rows = static_cast<std::uint32_t>(std::lround(height / kStep));
+  TriangleMesh mesh;
+  for (std::uint32_t row = 0; row <= rows; ++row) {
+    for (std::uint32_t column = 0; column <= columns; ++column) {
+      const double y = width * (static_cast<double>(column) / columns - 0.5);
+      const double z = height * row / rows;
+      mesh.vertices.push_back(Eigen::Vector3d(depth(y, z), y, z).cast<float>());
+    }
+  }
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const std::uint32_t corner = row * (columns + 1) + column;
+      addQuad(mesh, corner, corner + columns + 1, corner + columns + 2, corner + 1);
+    }
   }
   return mesh;
 }
