@@ -9,9 +9,13 @@
 namespace dominant_plane_detection {
 namespace {
 
-/// [-] Widths of the weights in sigma(z), and steps at each of them.
-constexpr std::array<float, 3> kWidths{1.5F, 0.7F, 0.35F};
-constexpr int kStepsEach = 2;
+/// [-] Width of the weights in sigma(z) that look for the densest heights, and steps with it.
+constexpr float kWidth = 0.35F;
+constexpr int kModeSteps = 3;
+/// Planes through three of the region's tiles that are tried, on this many of the tiles. Three of
+/// them lie on a surface that holds half of the region with 1 - (7/8)^32 = 99 %.
+constexpr std::size_t kHypotheses = 32;
+constexpr std::size_t kSample = 256;
 /// Steps of the least squares; a plane that moves by less than the last two numbers, far below any
 /// sensor's noise, is final.
 constexpr int kMaxSteps = 4;
@@ -49,6 +53,63 @@ std::optional<Step> step(const TileJudge& judge, const TileRegion& region, const
   const Eigen::Vector3d origin = test.frame.origin.cast<double>() + change[2] * axes.col(2);
   return Step{HessePlane::through(origin, normal),
               change.head<2>().norm() < kFinalNormal && std::abs(change[2]) < kFinalDistance};
+}
+
+/// Some of a region's tiles, side by side.
+struct Sample {
+  std::array<Eigen::Vector3f, kSample> centre;  ///< [m]
+  std::array<float, kSample> inverse_width;     ///< [1/m]
+  std::array<float, kSample> points;            ///< [px]
+  std::size_t size = 0;
+
+  Sample(const TileJudge& judge, const TileRegion& region) {
+    size = std::min(region.tiles.size(), kSample);
+    const TileMoments& tiles = judge.tiles();
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::size_t tile = region.tiles[i * region.tiles.size() / size];
+      centre[i] = {tiles.x[tile], tiles.y[tile], tiles.z[tile]};
+      inverse_width[i] = judge.limits().inverse_sigma[tile] / kWidth;
+      points[i] = tiles.count[tile];
+    }
+  }
+
+  /// @return [px] that lie on a plane, those off it counting the less the farther they are.
+  float support(const Eigen::Vector3f& normal, float distance) const {
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < size; ++i) {
+      const float off = (normal.dot(centre[i]) - distance) * inverse_width[i];
+      sum += points[i] / (1.0F + off * off);
+    }
+    return sum;
+  }
+};
+
+/// @return of the region's plane and of planes through three of its tiles, that with most support.
+HessePlane mostSupported(const TileJudge& judge, const TileRegion& region) {
+  const Sample sample(judge, region);
+  HessePlane best = region.plane;
+  float best_support = sample.support(best.normal.cast<float>(), static_cast<float>(best.distance));
+  // Even in three dimensions: M. Roberts' generalisation of the golden ratio, x^4 = x + 1.
+  constexpr double kRatio = 1.2207440846057596;
+  for (std::size_t k = 1; k <= kHypotheses; ++k) {
+    const auto pick = [&](double step) {
+      const double whole = static_cast<double>(k) * step;
+      return static_cast<std::size_t>((whole - std::floor(whole)) *
+                                      static_cast<double>(sample.size));
+    };
+    const Eigen::Vector3f& a = sample.centre[pick(1.0 / kRatio)];
+    const Eigen::Vector3f& b = sample.centre[pick(1.0 / (kRatio * kRatio))];
+    const Eigen::Vector3f& c = sample.centre[pick(1.0 / (kRatio * kRatio * kRatio))];
+    const Eigen::Vector3f across = (b - a).cross(c - a);
+    const float area = across.norm();
+    if (!(area > 0.0F)) continue;  // one tile twice, or three in a line
+    const Eigen::Vector3f normal = across / area;
+    const float support = sample.support(normal, normal.dot(a));
+    if (support <= best_support) continue;
+    best_support = support;
+    best = HessePlane::through(a.cast<double>(), normal.cast<double>().normalized());
+  }
+  return best;
 }
 
 /// @return [-] the scatter of the region's tiles about a plane, in sigma(z), where they are
@@ -91,16 +152,13 @@ std::optional<RefinedPlane> fitPlane(const TileJudge& judge, const TileRegion& r
 }
 
 std::optional<RefinedPlane> refinePlane(const TileJudge& judge, const TileRegion& region) {
-  HessePlane mode = region.plane;
+  HessePlane mode = mostSupported(judge, region);
   std::size_t fits = 0;
-  for (const float width : kWidths) {
-    for (int i = 0; i < kStepsEach; ++i) {
-      const auto next = step(judge, region, mode, std::numeric_limits<float>::infinity(), width);
-      if (!next) return std::nullopt;
-      mode = next->plane;
-      ++fits;
-      if (next->final) break;
-    }
+  for (bool final = false; !final && fits < kModeSteps; ++fits) {
+    const auto next = step(judge, region, mode, std::numeric_limits<float>::infinity(), kWidth);
+    if (!next) return std::nullopt;
+    mode = next->plane;
+    final = next->final;
   }
   const float level = std::max(kMinLevel, kScatters * scatterAbout(judge, region, mode));
   std::optional<RefinedPlane> result = fitPlane(judge, region, mode, level);
