@@ -103,16 +103,22 @@ void GridSearch::finishRegion(const TileRegion& grown) {
   region_.plane = refined->plane;
   judge_.setPlane(region_.plane, tiles_->centre(region_.tiles.front()), mode->level);
   if (!check_.isSurface(judge_, region_)) return;
-  for (const std::size_t tile : region_.tiles) take(tile);
-  if (join_pieces_) {
-    for (const auto& piece :
-         pieces_.join(judge_, region_.plane, min_piece_, taken_, region_.tiles)) {
-      region_.points += piece.points;
-      available_points_ -= piece.points;
-    }
-  }
+  if (join_pieces_) joinPieces();
   effort_->joined += region_.tiles.size();
-  if (selection_->consider(region_.plane, region_.points)) markGround(0, region_.tiles.size());
+  const std::size_t best = selection_->points();
+  const State verdict = selection_->consider(region_.plane, region_.points);
+  // A surface that is no ground may have been put together from parts of one that is.
+  if (verdict != State::kFound && seeds_ == Seeds::kPromising) return;
+  for (const std::size_t tile : region_.tiles) take(tile);
+  if (selection_->points() > best) markGround(0, region_.tiles.size());
+}
+
+void GridSearch::joinPieces() {
+  seen_ = taken_;
+  for (const std::size_t tile : region_.tiles) seen_[tile] = 1;
+  for (const auto& piece : pieces_.join(judge_, region_.plane, min_piece_, seen_, region_.tiles)) {
+    region_.points += piece.points;
+  }
 }
 
 void GridSearch::markGround(std::size_t begin, std::size_t end) {

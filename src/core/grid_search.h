@@ -54,6 +54,7 @@ class GridSearch : private RegionSource {
   std::size_t availablePoints() const override { return available_points_; }
   bool tryRegion(std::size_t tile) override;
   void finishRegion(const TileRegion& grown);
+  void joinPieces();
   void collectLargest(const TileRegion& grown);
   void take(std::size_t tile);
 

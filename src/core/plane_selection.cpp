@@ -6,19 +6,16 @@
 
 namespace dominant_plane_detection {
 
-bool PlaneSelection::consider(const HessePlane& plane, std::size_t points) {
+State PlaneSelection::consider(const HessePlane& plane, std::size_t points) {
   const bool large = points >= minPoints();
   const State verdict = large ? checkPose(plane) : State::kTooSmall;
   if (verdict == State::kFound) {
-    if (points <= best_.points) return false;
-    best_ = {plane, points};
-    return true;
-  }
-  if (points > refused_.points) {
+    if (points > best_.points) best_ = {plane, points};
+  } else if (points > refused_.points) {
     refused_ = {plane, points};
     refusal_ = verdict;
   }
-  return false;
+  return verdict;
 }
 
 bool PlaneSelection::clearlyTooTilted(const HessePlane& plane) const {

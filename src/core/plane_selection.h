@@ -27,8 +27,8 @@ class PlaneSelection {
   explicit PlaneSelection(const PlaneLimits& limits) : limits_(limits) {}
 
   /// @param points [px] that lie on the plane.
-  /// @return whether it is the one to keep.
-  bool consider(const HessePlane& plane, std::size_t points);
+  /// @return kFound if it could be the ground, otherwise why not.
+  State consider(const HessePlane& plane, std::size_t points);
 
   /// @param plane of a few tiles, not yet grown.
   /// @return whether it is tilted by so much more than allowed that growing cannot make it right.
