@@ -16,7 +16,6 @@ void GridSearch::run(const Image& image, const Parameters& parameters, PlaneSele
   effort_ = &effort;
   start(image, parameters);
   growth_.start(image.tiles, tileAngle(image.camera));
-  collect_.start(image.tiles, tileAngle(image.camera));
   order_.build(tiles_->columns, tiles_->rows, {image.camera.fx, image.camera.fy},
                selection.limits().expected_up);
   search(parameters, Seeds::kPromising);
@@ -28,11 +27,11 @@ void GridSearch::run(const Image& image, const Parameters& parameters, PlaneSele
 
 void GridSearch::start(const Image& image, const Parameters& parameters) {
   tiles_ = &image.tiles;
-  join_pieces_ = parameters.join_pieces;
-  min_piece_ = image.min_piece;
+  piece_limits_ = {parameters.join_pieces, image.min_piece};
   limits_.set(*tiles_, growthThresholds(parameters));
   judge_.start(*tiles_, limits_);
-  pieces_.start(*tiles_, tileAngle(image.camera));
+  collect_.start(*tiles_, tileAngle(image.camera));
+  ground_tiles_.start(*tiles_, tileAngle(image.camera));
   taken_.assign(tiles_->count.size(), 0);
 }
 
@@ -53,13 +52,15 @@ void GridSearch::collectGround(const Image& image, const Parameters& parameters,
                                const HessePlane& plane) {
   start(image, parameters);
   judge_.setPlane(plane, plane.distance * plane.normal);
+  judge_.judgeAll();
   region_.tiles.clear();
-  const auto& pieces = pieces_.join(judge_, plane, min_piece_, taken_, region_.tiles);
-  if (join_pieces_ || pieces.empty()) return markGround(0, region_.tiles.size());
-  const auto largest =
-      std::max_element(pieces.begin(), pieces.end(),
-                       [](const auto& a, const auto& b) { return a.points < b.points; });
-  markGround(largest->begin, largest->end);
+  region_.points = 0;
+  seen_ = taken_;
+  for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
+    if (judge_.onPlane(tile) && !seen_[tile]) collectPart(tile);
+  }
+  ground_tiles_.collect(judge_, plane, region_.tiles, taken_, piece_limits_);
+  ground_ = ground_tiles_.ground();
 }
 
 void GridSearch::take(std::size_t tile) {
@@ -103,27 +104,26 @@ void GridSearch::finishRegion(const TileRegion& grown) {
   region_.plane = refined->plane;
   judge_.setPlane(region_.plane, tiles_->centre(region_.tiles.front()), mode->level);
   if (!check_.isSurface(judge_, region_)) return;
-  if (join_pieces_) joinPieces();
+  ground_tiles_.collect(judge_, region_.plane, region_.tiles, taken_, piece_limits_);
+  joinPieces(mode->level);
   effort_->joined += region_.tiles.size();
   const std::size_t best = selection_->points();
   const State verdict = selection_->consider(region_.plane, region_.points);
   // A surface that is no ground may have been put together from parts of one that is.
   if (verdict != State::kFound && seeds_ == Seeds::kPromising) return;
   for (const std::size_t tile : region_.tiles) take(tile);
-  if (selection_->points() > best) markGround(0, region_.tiles.size());
+  if (selection_->points() > best) ground_ = ground_tiles_.ground();
 }
 
-void GridSearch::joinPieces() {
-  seen_ = taken_;
-  for (const std::size_t tile : region_.tiles) seen_[tile] = 1;
-  for (const auto& piece : pieces_.join(judge_, region_.plane, min_piece_, seen_, region_.tiles)) {
-    region_.points += piece.points;
+void GridSearch::joinPieces(float level) {
+  if (ground_tiles_.pieces().empty()) return;
+  for (const std::size_t tile : ground_tiles_.pieces()) {
+    region_.tiles.push_back(tile);
+    region_.member[tile] = 1;
   }
-}
-
-void GridSearch::markGround(std::size_t begin, std::size_t end) {
-  ground_.assign(tiles_->count.size(), 0);
-  for (std::size_t i = begin; i < end; ++i) ground_[region_.tiles[i]] = 1;
+  region_.points += ground_tiles_.piecePoints();
+  const std::optional<RefinedPlane> joint = fitPlane(judge_, region_, region_.plane, level);
+  if (joint) region_.plane = joint->plane;
 }
 
 /// The largest part of a region that hangs together on the judge's plane.
@@ -141,11 +141,17 @@ void GridSearch::collectLargest(const TileRegion& grown) {
       left -= static_cast<std::size_t>(tiles_->count[tile]);
       continue;
     }
-    const TileRegion& part = collect_.collect(judge_, tile, seen_);
-    for (const std::size_t t : part.tiles) seen_[t] = 1;
-    left -= std::min(left, part.points);
-    if (part.points > region_.points) region_ = part;
+    left -= std::min(left, collectPart(tile));
   }
+}
+
+/// Keeps what hangs together with a tile on the judge's plane if it is the largest so far.
+/// @return [px] its points.
+std::size_t GridSearch::collectPart(std::size_t tile) {
+  const TileRegion& part = collect_.collect(judge_, tile, seen_);
+  for (const std::size_t t : part.tiles) seen_[t] = 1;
+  if (part.points > region_.points) region_ = part;
+  return part.points;
 }
 
 }  // namespace dominant_plane_detection

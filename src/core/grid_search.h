@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/piece_joining.h"
+#include "core/ground_tiles.h"
 #include "core/plane_refinement.h"
 #include "core/plane_selection.h"
 #include "core/seed_search.h"
@@ -46,7 +46,6 @@ class GridSearch : private RegionSource {
     kAll,
   };
   void start(const Image& image, const Parameters& parameters);
-  void markGround(std::size_t begin, std::size_t end);
   void search(const Parameters& parameters, Seeds seeds);
   bool available(std::size_t tile) const override {
     return tiles_->count[tile] >= kMinReadings && !taken_[tile] && !seeded_[tile];
@@ -54,8 +53,9 @@ class GridSearch : private RegionSource {
   std::size_t availablePoints() const override { return available_points_; }
   bool tryRegion(std::size_t tile) override;
   void finishRegion(const TileRegion& grown);
-  void joinPieces();
+  void joinPieces(float level);
   void collectLargest(const TileRegion& grown);
+  std::size_t collectPart(std::size_t tile);
   void take(std::size_t tile);
 
   const TileMoments* tiles_ = nullptr;
@@ -65,11 +65,10 @@ class GridSearch : private RegionSource {
   TileGrowth collect_;  ///< of what it is on its final plane
   TileRegion region_;
   SurfaceCheck check_;
-  PieceJoining pieces_;
+  GroundTiles ground_tiles_;
   SeedOrder order_;
   RandomDraw draw_;
-  bool join_pieces_ = true;
-  std::size_t min_piece_ = 0;         ///< [px]
+  GroundTiles::Limits piece_limits_{};
   std::vector<std::uint8_t> taken_;   ///< 1 for tiles of regions: they neither seed nor join
   std::vector<std::uint8_t> seeded_;  ///< 1 for tiles that were seeds
   std::vector<std::uint8_t> seen_;    ///< 1 for tiles taken or collected

@@ -32,7 +32,7 @@ void TileGrowth::clear() {
   fits_ = 0;
 }
 
-void TileGrowth::join(const TileJudge& judge, std::size_t tile, Plane plane) {
+void TileGrowth::join(const TileJudge& judge, std::size_t tile, Mode mode) {
   const TileMoments& tiles = judge.tiles();
   const double count = static_cast<double>(tiles.count[tile]);
   region_.member[tile] = 1;
@@ -43,29 +43,35 @@ void TileGrowth::join(const TileJudge& judge, std::size_t tile, Plane plane) {
   box_ = {std::min(box_.left, column), std::min(box_.top, row), std::max(box_.right, column),
           std::max(box_.bottom, row)};
   reach_ = std::max(reach_, reach(judge, tile));
-  if (plane == Plane::kGrows) moments_.add(count, tiles.centre(tile), tiles.scatter(tile));
+  if (mode == Mode::kGrow) moments_.add(count, tiles.centre(tile), tiles.scatter(tile));
 }
 
-void TileGrowth::tryToJoin(const TileJudge& judge, std::size_t tile, std::size_t from, Plane plane,
+bool TileGrowth::mayJoin(const TileJudge& judge, std::size_t tile, Mode mode,
+                         const std::vector<std::uint8_t>& taken) const {
+  const TileVerdict least = mode == Mode::kSurround ? TileVerdict::kTouches : TileVerdict::kOnPlane;
+  return judge.verdict(tile) >= least && !region_.member[tile] && !taken[tile];
+}
+
+void TileGrowth::tryToJoin(const TileJudge& judge, std::size_t tile, std::size_t from, Mode mode,
                            const std::vector<std::uint8_t>& taken) {
-  if (!judge.onPlane(tile) || region_.member[tile] || taken[tile]) return;
+  if (!mayJoin(judge, tile, mode, taken)) return;
   const TileMoments& tiles = judge.tiles();
   if (!closerThanDelta(tiles, judge.limits(), tile, from)) return;
   const double count = static_cast<double>(tiles.count[tile]);
   const double sum_square = sum_square_ + count * static_cast<double>(judge.meanSquare(tile));
   const double sum_epsilon2 =
       sum_epsilon2_ + count * static_cast<double>(judge.limits().epsilon2[tile]);
-  if (sum_square >= sum_epsilon2) return;
+  if (mode != Mode::kSurround && sum_square >= sum_epsilon2) return;
   sum_square_ = sum_square;
-  join(judge, tile, plane);
+  join(judge, tile, mode);
 }
 
 const TileRegion& TileGrowth::grow(TileJudge& judge, const TileSeed& seed,
                                    const std::vector<std::uint8_t>& taken) {
   clear();
-  for (std::size_t i = 0; i < seed.count; ++i) join(judge, seed.tiles[i], Plane::kGrows);
+  for (std::size_t i = 0; i < seed.count; ++i) join(judge, seed.tiles[i], Mode::kGrow);
   refit(judge);
-  spread(judge, Plane::kGrows, taken);
+  spread(judge, Mode::kGrow, taken);
   refit(judge);
   return region_;
 }
@@ -73,15 +79,23 @@ const TileRegion& TileGrowth::grow(TileJudge& judge, const TileSeed& seed,
 const TileRegion& TileGrowth::collect(TileJudge& judge, std::size_t first,
                                       const std::vector<std::uint8_t>& taken) {
   clear();
-  join(judge, first, Plane::kStays);
+  join(judge, first, Mode::kCollect);
   sum_square_ = static_cast<double>(judge.tiles().count[first]) *
                 static_cast<double>(judge.meanSquare(first));
-  spread(judge, Plane::kStays, taken);
+  spread(judge, Mode::kCollect, taken);
+  return region_;
+}
+
+const TileRegion& TileGrowth::surround(TileJudge& judge, const std::vector<std::size_t>& tiles,
+                                       const std::vector<std::uint8_t>& taken) {
+  clear();
+  for (const std::size_t tile : tiles) join(judge, tile, Mode::kSurround);
+  spread(judge, Mode::kSurround, taken);
   return region_;
 }
 
 /// First come, first served: rings about the seed, as good as "nearest first" on a grid.
-void TileGrowth::spread(TileJudge& judge, Plane plane, const std::vector<std::uint8_t>& taken) {
+void TileGrowth::spread(TileJudge& judge, Mode mode, const std::vector<std::uint8_t>& taken) {
   std::size_t next = 0;
   do {
     for (; next < region_.tiles.size(); ++next) {
@@ -89,10 +103,10 @@ void TileGrowth::spread(TileJudge& judge, Plane plane, const std::vector<std::ui
       const int row = static_cast<int>(from) / columns_;
       judge.judgeRows(row - 1, row + 1);
       forEachNeighbour(from, columns_, rows_,
-                       [&](std::size_t tile) { tryToJoin(judge, tile, from, plane, taken); });
-      if (plane == Plane::kGrows && moments_.count() > kRefitGrowth * fitted_count_) refit(judge);
+                       [&](std::size_t tile) { tryToJoin(judge, tile, from, mode, taken); });
+      if (mode == Mode::kGrow && moments_.count() > kRefitGrowth * fitted_count_) refit(judge);
     }
-  } while (bridgeGaps(judge, plane, taken));
+  } while (bridgeGaps(judge, mode, taken));
 }
 
 /// @return [tile] how far away in the image a tile within delta can be.
@@ -123,11 +137,9 @@ std::size_t TileGrowth::closeMember(const TileJudge& judge, std::size_t tile) co
 /// Joins tiles that have no neighbour in the region, but come closer to it than delta: across what
 /// has no reading, or stands before the plane. Only the rims of what is left need to be looked at.
 /// @return whether there were any.
-bool TileGrowth::bridgeGaps(TileJudge& judge, Plane plane, const std::vector<std::uint8_t>& taken) {
+bool TileGrowth::bridgeGaps(TileJudge& judge, Mode mode, const std::vector<std::uint8_t>& taken) {
   const std::size_t before = region_.tiles.size();
-  const auto left = [&](std::size_t tile) {
-    return judge.onPlane(tile) && !region_.member[tile] && !taken[tile];
-  };
+  const auto left = [&](std::size_t tile) { return mayJoin(judge, tile, mode, taken); };
   const Box around{std::max(box_.left - reach_, 0), std::max(box_.top - reach_, 0),
                    std::min(box_.right + reach_, columns_ - 1),
                    std::min(box_.bottom + reach_, rows_ - 1)};
@@ -141,7 +153,7 @@ bool TileGrowth::bridgeGaps(TileJudge& judge, Plane plane, const std::vector<std
                        [&](std::size_t other) { neighbours += left(other); });
       if (neighbours == 8) continue;
       const std::size_t from = closeMember(judge, tile);
-      if (from != tile) tryToJoin(judge, tile, from, plane, taken);
+      if (from != tile) tryToJoin(judge, tile, from, mode, taken);
     }
   }
   return region_.tiles.size() > before;

@@ -44,21 +44,33 @@ class TileGrowth {
   const TileRegion& collect(TileJudge& judge, std::size_t first,
                             const std::vector<std::uint8_t>& taken);
 
+  /// Collects all that hangs together with some tiles and touches the judge's plane, or lies on it,
+  /// by delta alone. The judge has judged all rows.
+  const TileRegion& surround(TileJudge& judge, const std::vector<std::size_t>& tiles,
+                             const std::vector<std::uint8_t>& taken);
+
   /// @return [#] of plane fits that the last `grow` made.
   std::size_t fits() const { return fits_; }
 
  private:
-  enum class Plane { kGrows, kStays };
+  /// What joins, and what becomes of the plane.
+  enum class Mode {
+    kGrow,      ///< tiles on the plane, within epsilon; the plane is fitted again
+    kCollect,   ///< the same, the plane stays
+    kSurround,  ///< tiles that touch the plane
+  };
   struct Box {  ///< of tiles, its ends included
     int left, top, right, bottom;
   };
 
   void clear();
-  void join(const TileJudge& judge, std::size_t tile, Plane plane);
-  void tryToJoin(const TileJudge& judge, std::size_t tile, std::size_t from, Plane plane,
+  void join(const TileJudge& judge, std::size_t tile, Mode mode);
+  bool mayJoin(const TileJudge& judge, std::size_t tile, Mode mode,
+               const std::vector<std::uint8_t>& taken) const;
+  void tryToJoin(const TileJudge& judge, std::size_t tile, std::size_t from, Mode mode,
                  const std::vector<std::uint8_t>& taken);
-  void spread(TileJudge& judge, Plane plane, const std::vector<std::uint8_t>& taken);
-  bool bridgeGaps(TileJudge& judge, Plane plane, const std::vector<std::uint8_t>& taken);
+  void spread(TileJudge& judge, Mode mode, const std::vector<std::uint8_t>& taken);
+  bool bridgeGaps(TileJudge& judge, Mode mode, const std::vector<std::uint8_t>& taken);
   std::size_t closeMember(const TileJudge& judge, std::size_t tile) const;
   int reach(const TileJudge& judge, std::size_t tile) const;
   void refit(TileJudge& judge);

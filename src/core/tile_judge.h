@@ -22,7 +22,8 @@ class TileJudge {
   void judgeAll() { judgeRows(0, tiles_->rows - 1); }
 
   /// @pre the tile's row was judged.
-  bool onPlane(std::size_t tile) const { return verdicts_.on_plane[tile] != 0; }
+  TileVerdict verdict(std::size_t tile) const { return verdicts_.verdict[tile]; }
+  bool onPlane(std::size_t tile) const { return verdict(tile) == TileVerdict::kOnPlane; }
   /// @return [m] mean height over the plane; negative on the camera's side.
   float height(std::size_t tile) const { return verdicts_.height[tile]; }
   /// @return [m^2] of the heights of the tile's points.

@@ -42,6 +42,7 @@ struct TileHeights {
   Vector count;
   Vector height;    ///< [m]
   Vector variance;  ///< [m^2] of the heights within the tile
+  hn::Mask<Floats> touches;
   hn::Mask<Floats> on_plane;
 };
 
@@ -85,7 +86,8 @@ HWY_INLINE TileHeights tileHeights(const TileMoments& t, const TileLimits& limit
       hn::Mul(slopeVariance(tile.scatter_n, xx, xy, yy), hn::Mul(inverse_sigma, inverse_sigma));
   const auto flat = hn::Lt(slope, hn::Set(d, PlaneTest::kMaxSlope * PlaneTest::kMaxSlope));
   const auto filled = hn::Ge(tile.count, hn::Set(d, kMinReadings));
-  tile.on_plane = hn::And(hn::And(filled, two_sigma), hn::And(near, flat));
+  tile.touches = hn::And(filled, hn::And(hn::Gt(rest, hn::Zero(d)), flat));
+  tile.on_plane = hn::And(tile.touches, hn::And(two_sigma, near));
   return tile;
 }
 
@@ -96,10 +98,17 @@ void judgeTiles(const TileMoments& t, const TileLimits& limits, const PlaneTest&
   const hn::Rebind<std::uint8_t, Floats> bytes;
   const VectorFrame frame(test.frame);
   const auto level = hn::Set(d, test.level);
+  const auto constant = [&](TileVerdict verdict) {
+    return hn::Set(wide, static_cast<std::int32_t>(verdict));
+  };
   for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
     const TileHeights tile = tileHeights(t, limits, frame, level, i);
-    const auto flag = hn::IfThenElseZero(hn::RebindMask(wide, tile.on_plane), hn::Set(wide, 1));
-    hn::StoreU(hn::DemoteTo(bytes, flag), bytes, &verdicts.on_plane[i]);
+    const auto close =
+        hn::IfThenElse(hn::RebindMask(wide, tile.on_plane), constant(TileVerdict::kOnPlane),
+                       constant(TileVerdict::kTouches));
+    const auto verdict = hn::IfThenElseZero(hn::RebindMask(wide, tile.touches), close);
+    hn::StoreU(hn::DemoteTo(bytes, verdict), bytes,
+               reinterpret_cast<std::uint8_t*>(&verdicts.verdict[i]));
     hn::StoreU(tile.height, d, &verdicts.height[i]);
     hn::StoreU(hn::MulAdd(tile.height, tile.height, tile.variance), d, &verdicts.mean_square[i]);
   }

@@ -14,10 +14,11 @@ namespace dominant_plane_detection {
 
 /// A plane that tiles are held against, and how close they have to be.
 ///
-/// A tile lies on the plane if it has enough readings, if its points, its mean height and two
-/// standard deviations to either side, are closer than gamma, if its mean is closer than `level`
-/// sigma(z), and if its own normal agrees: the heights that go with the place within the tile, its
-/// slope, have a standard deviation below kMaxSlope sigma(z).
+/// A tile touches the plane if it has enough readings, if its mean height is closer than gamma, and
+/// if its own normal agrees: the heights that go with the place within the tile, its slope, have a
+/// standard deviation below kMaxSlope sigma(z). It lies on the plane if, beyond that, all its
+/// points are closer than gamma, its mean height and two standard deviations to either side, and
+/// its mean is closer than `level` sigma(z).
 struct PlaneTest {
   PlaneFrame frame;
   float level = std::numeric_limits<float>::infinity();  ///< [-] in sigma(z)
@@ -27,14 +28,16 @@ struct PlaneTest {
   static constexpr float kMaxSlope = 0.85F;
 };
 
+enum class TileVerdict : std::uint8_t { kOff = 0, kTouches, kOnPlane };
+
 /// What the test said of each tile, padded like the moments.
 struct TileVerdicts {
-  std::vector<std::uint8_t> on_plane;  ///< 1 or 0
-  std::vector<float> height;           ///< [m] mean; negative on the camera's side
-  std::vector<float> mean_square;      ///< [m^2] of the heights of the tile's points
+  std::vector<TileVerdict> verdict;
+  std::vector<float> height;       ///< [m] mean; negative on the camera's side
+  std::vector<float> mean_square;  ///< [m^2] of the heights of the tile's points
 
   void resize(std::size_t size) {
-    on_plane.resize(size);
+    verdict.resize(size);
     height.resize(size);
     mean_square.resize(size);
   }

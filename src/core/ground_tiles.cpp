@@ -1,4 +1,4 @@
-#include "core/piece_joining.h"
+#include "core/ground_tiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,16 @@ namespace dominant_plane_detection {
 namespace {
 
 constexpr double kMaxAngle = 0.436;  // [rad] 25 degrees
-/// Of the nine tiles about a seed, as many as a region starts from.
+/// Of the eight tiles about a seed, as many as a region starts from.
 constexpr int kMinNeighbours = 5;
 
-bool hasSeed(const TileMoments& tiles, const TileRegion& piece) {
+bool hasSeed(const TileJudge& judge, const TileRegion& piece) {
+  const TileMoments& tiles = judge.tiles();
   return std::any_of(piece.tiles.begin(), piece.tiles.end(), [&](std::size_t tile) {
+    if (!judge.onPlane(tile)) return false;
     int neighbours = 0;
     forEachNeighbour(tile, tiles.columns, tiles.rows,
-                     [&](std::size_t other) { neighbours += piece.member[other]; });
+                     [&](std::size_t other) { neighbours += judge.onPlane(other); });
     return neighbours >= kMinNeighbours;
   });
 }
@@ -26,6 +28,7 @@ bool hasSamePlane(const TileJudge& judge, const TileRegion& piece, const HessePl
   PlaneMoments moments;
   double sigma = 0.0;
   for (const std::size_t tile : piece.tiles) {
+    if (!judge.onPlane(tile)) continue;
     const double count = static_cast<double>(tiles.count[tile]);
     moments.add(count, tiles.centre(tile), tiles.scatter(tile));
     sigma += count / static_cast<double>(judge.limits().inverse_sigma[tile]);
@@ -39,33 +42,35 @@ bool hasSamePlane(const TileJudge& judge, const TileRegion& piece, const HessePl
 
 }  // namespace
 
-void PieceJoining::start(const TileMoments& tiles, double tile_angle) {
-  growth_.start(tiles, tile_angle);
-}
-
-const std::vector<PieceJoining::Piece>& PieceJoining::join(TileJudge& judge,
-                                                           const HessePlane& plane,
-                                                           std::size_t min_points,
-                                                           std::vector<std::uint8_t>& taken,
-                                                           std::vector<std::size_t>& joined) {
+void GroundTiles::collect(TileJudge& judge, const HessePlane& plane,
+                          const std::vector<std::size_t>& region,
+                          const std::vector<std::uint8_t>& taken, const Limits& limits) {
   judge.judgeAll();
-  seen_ = taken;
-  pieces_.clear();
   const std::size_t size = judge.tiles().size();
+  ground_.assign(judge.tiles().count.size(), 0);
+  pieces_.clear();
+  piece_points_ = 0;
+  seen_ = taken;
+  for (const std::size_t tile : growth_.surround(judge, region, seen_).tiles) {
+    ground_[tile] = seen_[tile] = 1;
+  }
+  if (!limits.join_pieces) return;
   for (std::size_t tile = 0; tile < size; ++tile) {
-    if (!judge.onPlane(tile) || seen_[tile]) continue;
-    const TileRegion& piece = growth_.collect(judge, tile, seen_);
+    if (judge.verdict(tile) == TileVerdict::kOff || seen_[tile]) continue;
+    beginning_.assign(1, tile);
+    const TileRegion& piece = growth_.surround(judge, beginning_, seen_);
     for (const std::size_t t : piece.tiles) seen_[t] = 1;
-    if (piece.points < min_points || !hasSeed(judge.tiles(), piece) ||
+    if (piece.points < limits.min_piece || !hasSeed(judge, piece) ||
         !hasSamePlane(judge, piece, plane)) {
       continue;
     }
-    for (const std::size_t t : piece.tiles) taken[t] = 1;
-    const std::size_t begin = joined.size();
-    joined.insert(joined.end(), piece.tiles.begin(), piece.tiles.end());
-    pieces_.push_back({piece.points, begin, joined.size()});
+    for (const std::size_t t : piece.tiles) {
+      ground_[t] = 1;
+      if (!judge.onPlane(t)) continue;
+      pieces_.push_back(t);
+      piece_points_ += static_cast<std::size_t>(judge.tiles().count[t]);
+    }
   }
-  return pieces_;
 }
 
 }  // namespace dominant_plane_detection
