@@ -123,7 +123,10 @@ void GridSearch::joinPieces(float level) {
   }
   region_.points += ground_tiles_.piecePoints();
   const std::optional<RefinedPlane> joint = fitPlane(judge_, region_, region_.plane, level);
-  if (joint) region_.plane = joint->plane;
+  if (!joint) return;
+  region_.plane = joint->plane;
+  judge_.setPlane(region_.plane, tiles_->centre(region_.tiles.front()), level);
+  ground_tiles_.collect(judge_, region_.plane, region_.tiles, taken_, piece_limits_);
 }
 
 /// The largest part of a region that hangs together on the judge's plane.
