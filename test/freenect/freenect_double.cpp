@@ -1,4 +1,4 @@
-#include "freenect_double.h"
+#include "freenect/freenect_double.h"
 
 #include <libfreenect.h>
 #include <libfreenect_registration.h>

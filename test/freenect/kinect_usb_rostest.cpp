@@ -6,7 +6,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 
-#include "freenect_double.h"
+#include "freenect/freenect_double.h"
 #include "libfreenect.h"
 #include "openni2/camera_choice.h"
 #include "support/driver_test.h"
