@@ -2,16 +2,10 @@
 
 #include <vector>
 
+#include "calibration/depth_pair.h"
 #include "dominant_plane_detection/depth_calibration.h"
 
 namespace dominant_plane_detection {
-
-/// A distance that was measured, and what the sensor said.
-struct DepthPair {
-  double raw = 0.0;       ///< [-] raw disparity, a mean with a fraction mostly
-  double distance = 0.0;  ///< [m] along the optical axis
-  double sigma = 0.0;     ///< [m] standard deviation of the distance; 0: that of the options
-};
 
 struct DepthFitOptions {
   DepthCalibration::Form form = DepthCalibration::Form::kReciprocal;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/depth_fit.h"
+#include "calibration/depth_pair.h"
 
 namespace dominant_plane_detection {
 
