@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <type_traits>
 
 #include "dominant_plane_detection/parameters.h"
@@ -12,8 +13,15 @@ struct ParameterInfo {
   const char* unit;
   double min;
   double max;
-  const char* text;
+  const char* text;  ///< without double quotes, which dynamic_reconfigure does not take
 };
+
+/// Whether members of a type have limits; `min` and `max` of others have no meaning.
+template <typename T>
+inline constexpr bool kHasLimits = std::is_same_v<T, int> || std::is_same_v<T, double>;
+
+/// What users call the values of `Algorithm`, in their order.
+inline constexpr std::array<const char*, 2> kAlgorithmNames{"grid", "kdtree"};
 
 /// Lets a template take a set of parameters, const or not, and nothing else.
 template <typename T, typename Set>
@@ -21,11 +29,12 @@ using IfParameters = std::enable_if_t<std::is_same_v<std::remove_const_t<T>, Set
 
 /// The one list of all parameters: name, unit, limits and text, with the member that holds it.
 ///
-/// Readers of YAML, dynamic_reconfigure and the command line all walk this list; a test holds the
-/// .cfg, the YAML files and the README against it.
+/// Readers of YAML, dynamic_reconfigure and the command line all walk this list. After a change
+/// here or of a default, scripts/update_parameters writes the .cfg, the YAML file and the README's
+/// table.
 /// @param parameters a `Parameters`, const or not.
-/// @param visit called as visit(ParameterInfo, member) with a member of type Algorithm, int or
-/// double; the limits of an Algorithm have no meaning.
+/// @param visit called as visit(ParameterInfo, member) with a member of type Algorithm, bool, int
+/// or double. The text of an Algorithm tells each value: "value: meaning; ...".
 template <typename ParametersT, typename Visitor, IfParameters<ParametersT, Parameters> = 0>
 void visitParameters(ParametersT& parameters, Visitor&& visit) {
   using Info = ParameterInfo;

@@ -43,7 +43,7 @@ template <typename ParametersT>
 std::vector<std::string> findRangeErrors(const ParametersT& parameters) {
   std::vector<std::string> errors;
   visitParameters(parameters, [&](const ParameterInfo& info, const auto& value) {
-    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
+    if constexpr (kHasLimits<std::decay_t<decltype(value)>>) {
       const double number = value;
       if (info.min <= number && number <= info.max) return;  // not so for NaN
       std::ostringstream text;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dominant_plane_detection/GetSerial.h>
+#include <dominant_plane_detection/OpenNI2DriverConfig.h>
 #include <dynamic_reconfigure/server.h>
 #include <nodelet/nodelet.h>
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dominant_plane_detection/PlaneDetectionConfig.h>
 #include <dynamic_reconfigure/server.h>
 #include <nodelet/nodelet.h>
 

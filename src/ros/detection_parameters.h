@@ -1,7 +1,5 @@
 #pragma once
 
-#include <dominant_plane_detection/PlaneDetectionConfig.h>
-
 #include <string>
 
 #include "dominant_plane_detection/parameters.h"
@@ -10,7 +8,7 @@
 namespace dominant_plane_detection {
 
 inline std::string configValue(Algorithm algorithm) {
-  return algorithm == Algorithm::kGrid ? "grid" : "kdtree";
+  return kAlgorithmNames[static_cast<std::size_t>(algorithm)];
 }
 
 }  // namespace dominant_plane_detection

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <dominant_plane_detection/OpenNI2DriverConfig.h>
-
 #include <string>
 #include <vector>
 
@@ -20,7 +18,7 @@ struct DriverParameters {
 };
 
 /// The one list of the driver's parameters; see `visitParameters` of the detection. Members are of
-/// type VideoMode, bool or double.
+/// type VideoMode, bool, int or double.
 template <typename ParametersT, typename Visitor, IfParameters<ParametersT, DriverParameters> = 0>
 void visitParameters(ParametersT& parameters, Visitor&& visit) {
   using Info = ParameterInfo;

@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/parameter_table.h"
+#include "core/parameter_text.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
 
 namespace dominant_plane_detection {
@@ -49,6 +49,26 @@ TEST(Parameters, SetFromText) {
   EXPECT_EQ(parameters.seeds, 7);
   EXPECT_EQ(parameters.algorithm, Algorithm::kKdtree);
   EXPECT_EQ(parameters.expected_up.z(), -0.1);
+}
+
+struct Switches {
+  bool on = false;
+};
+template <typename SwitchesT, typename Visitor, IfParameters<SwitchesT, Switches> = 0>
+void visitParameters(SwitchesT& switches, Visitor&& visit) {
+  visit(ParameterInfo{"on", "-", 0, 0, "a switch has no limits"}, switches.on);
+}
+
+TEST(Parameters, SwitchesAreTrueOrFalse) {
+  Switches switches;
+  setByName(switches, "on", "true");
+  EXPECT_TRUE(switches.on);
+  EXPECT_TRUE(findRangeErrors(switches).empty());
+  setByName(switches, "on", "0");
+  EXPECT_FALSE(switches.on);
+  for (const char* text : {"", "2", "yes", "True"}) {
+    EXPECT_THROW(setByName(switches, "on", text), std::invalid_argument) << text;
+  }
 }
 
 TEST(Parameters, RefuseWhatIsNoValueOrNoName) {
