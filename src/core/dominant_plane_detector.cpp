@@ -104,7 +104,7 @@ class DominantPlaneDetector::Implementation {
       grid_.run(image, parameters_, selection, detection_.effort);
       return;
     }
-    detection_.effort.seeds = kdtree_.run(input, parameters_, selection);
+    detection_.effort.seeds = kdtree_.run(input, parameters_, selection.limits().expected_up, selection);
     if (selection.found()) grid_.collectGround(image, parameters_, selection.plane());
   }
 

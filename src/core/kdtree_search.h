@@ -9,28 +9,47 @@
 #include "core/image_kernel.h"
 #include "core/kdtree_region_growing.h"
 #include "core/plane_selection.h"
+#include "core/seed_order.h"
+#include "core/seed_search.h"
 #include "core/seed_selection.h"
 #include "dominant_plane_detection/parameters.h"
 
 namespace dominant_plane_detection {
 
 /// Grows regions of points: every n-th one of every n-th row.
-class KdtreeSearch {
+///
+/// No further region is begun once twice as many points were tested as there are. A region tests no
+/// point twice, so that an image costs at most three times as many tests as it has points.
+class KdtreeSearch : private RegionSource {
  public:
-  std::size_t run(const ImageInput& input, const Parameters& parameters, PlaneSelection& selection);
+  /// @param up [-] unit, expected, in the optical frame.
+  /// @return [#] seeds that were tried.
+  std::size_t run(const ImageInput& input, const Parameters& parameters, const Eigen::Vector3d& up,
+                  PlaneSelection& selection);
+
+  /// What the last `run` cost.
+  const SearchEffort& effort() const { return effort_; }
 
  private:
+  bool available(std::size_t cell) const override;
+  std::size_t availablePoints() const override;
+  bool tryRegion(std::size_t cell) override;
+  bool exhausted() const override;
+
   void collectPoints(const ImageInput& input, int subsampling);
-  bool drawSeeds(std::size_t first, std::array<std::size_t, 3>& seeds);
+  bool drawSeeds(std::size_t cell, std::array<std::size_t, 3>& seeds);
 
   KdtreeRegionGrowing growing_;
+  SeedOrder order_;
   RandomDraw draw_;
+  GrowthThresholds thresholds_{};
+  PlaneSelection* selection_ = nullptr;   ///< of the present run
+  std::size_t pixels_per_point_ = 1;      ///< [px]
   int columns_ = 0;                       ///< [#] of the subsampled image
   int rows_ = 0;                          ///< [#]
   std::vector<Eigen::Vector3d> points_;   ///< [m]
-  std::vector<std::size_t> pixel_of_;     ///< subsampled pixel of each point
   std::vector<std::ptrdiff_t> point_of_;  ///< point of each subsampled pixel, -1: no reading
-  std::vector<std::uint8_t> claimed_;     ///< points of earlier regions
+  SearchEffort effort_;
 };
 
 }  // namespace dominant_plane_detection

@@ -122,6 +122,7 @@ TEST_P(SmallImage, JoinsTheSamePointsInTheSameOrderAsTheDefinition) {
       {NoiseModel(), {0.25, 0.0}, {0.008, 0.0}, {0.015, 0.0}}};
   for (const GrowthThresholds& thresholds : all_thresholds) {
     const Seeds seeds = drawSeeds(points.size(), number);
+    growing.setPoints(points);  // forgets the claims
     EXPECT_EQ(growing.grow(seeds, thresholds).sequence, growNaively(points, seeds, thresholds));
   }
 }
@@ -180,6 +181,7 @@ TEST(KdtreeRegionGrowing, CrossesGapsThatAreNarrowerThanDelta) {
   // In [m], and the patches that are reached; the last is reached from the second alone.
   for (const auto& [delta, reached] : {std::pair(0.03, 1U), {0.06, 2U}, {0.15, 3U}}) {
     const GrowthThresholds thresholds{NoiseModel(), {delta, 0.0}, {0.005, 0.0}, {0.01, 0.0}};
+    growing.setPoints(points);
     const std::vector<std::size_t>& sequence = growing.grow(seeds, thresholds).sequence;
     EXPECT_EQ(sequence.size(), 100U * reached) << "delta " << delta;
     EXPECT_EQ(sequence, growNaively(points, seeds, thresholds)) << "delta " << delta;
@@ -223,6 +225,7 @@ TEST(KdtreeRegionGrowing, DegenerateInputsGiveTheSeeds) {
   EXPECT_EQ(growing.grow({0, 1, 2}, wide).sequence.size(), 3U);
   GrowthThresholds no_reach = wide;
   no_reach.delta.offset = 0.0;
+  growing.setPoints(four);
   EXPECT_EQ(growing.grow({0, 1, 3}, no_reach).sequence.size(), 3U);
 }
 
