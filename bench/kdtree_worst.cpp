@@ -207,8 +207,9 @@ void run() {
       slowest = seconds;
       const SearchEffort& effort = search.effort();
       char counts[128];
-      std::snprintf(counts, sizeof(counts), "; %zu seeds, %zu tests, %zu decompositions",
-                    effort.seeds_tried, effort.tests, effort.decompositions);
+      std::snprintf(counts, sizeof(counts),
+                    "; %zu seeds, %zu tests, %zu searches, %zu decompositions", effort.seeds_tried,
+                    effort.tests, effort.searches, effort.decompositions);
       slowest_name = set.name + counts;
     }
     slowest_of_all = std::max(slowest_of_all, slowest);

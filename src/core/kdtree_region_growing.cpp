@@ -8,10 +8,8 @@ namespace {
 
 /// Bounds have to hold by more than rounding could take from them.
 constexpr double kRounding = 1e-6;
-/// [#] neighbours of a member that are searched for at first. Each time they are used up it is
-/// twice as many, so that a member with many neighbours needs few searches.
-constexpr std::uint32_t kFirstNeighbours = 4;
-constexpr std::uint32_t kMostNeighbours = 64;
+/// [#] neighbours of a member that are searched for at most.
+constexpr std::uint32_t kFewest = 2, kMostNeighbours = 64;
 
 /// Order of a heap with the nearest candidate on top; of equally near ones, that of lower index.
 constexpr auto later = [](const auto& a, const auto& b) { return b.neighbour < a.neighbour; };
@@ -46,6 +44,7 @@ const KdtreeRegionGrowing::Region& KdtreeRegionGrowing::grow(
     // Another member may have been as near to it, or nearer.
     if (tree_.contains(point)) {
       tree_.remove(point);
+      ++members_[nearest.member].used;
       if (test(point, thresholds)) {
         join(point, thresholds);
       } else {
@@ -69,7 +68,7 @@ void KdtreeRegionGrowing::join(std::size_t point, const GrowthThresholds& thresh
   region_.moments.add(r);  // Eq. 10
   region_.sequence.push_back(point);
   refit_is_current_ = false;
-  members_.push_back({static_cast<std::uint32_t>(point), 0, 0, 0});
+  members_.push_back({static_cast<std::uint32_t>(point)});
   offerNearest(static_cast<std::uint32_t>(members_.size() - 1), thresholds);
 }
 
@@ -89,7 +88,12 @@ void KdtreeRegionGrowing::searchNeighbours(Member& member, const GrowthThreshold
   ++effort_.searches;
   const Eigen::Vector3d& r = points_[member.point];
   const double delta = thresholds.delta.at(r.z(), thresholds.noise);
-  member.asked = std::clamp(2 * member.asked, kFirstNeighbours, kMostNeighbours);
+  // A member with many neighbours of its own needs few searches; one whose neighbours are nearer to
+  // others needs cheap ones.
+  const bool were_own = 2 * member.used > member.asked;
+  member.asked =
+      std::clamp(were_own ? 2 * member.asked : member.asked / 2, kFewest, kMostNeighbours);
+  member.used = 0;
   tree_.nearest(r, delta * delta, member.asked, found_);
   member.complete = found_.size() < member.asked;
   member.next = static_cast<std::uint32_t>(neighbours_.size());

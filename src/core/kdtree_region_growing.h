@@ -63,13 +63,17 @@ class KdtreeRegionGrowing {
   const Effort& effort() const { return effort_; }
 
  private:
+  /// [#] neighbours of a member that are searched for at first.
+  static constexpr std::uint32_t kFirstNeighbours = 4;
+
   /// A point of the region with the nearest points that were left when the tree was searched.
   struct Member {
     std::uint32_t point;
-    std::uint32_t next = 0;   ///< of its neighbours
-    std::uint32_t end = 0;    ///< of its neighbours
-    std::uint32_t asked = 0;  ///< [#] neighbours that were searched for
-    bool complete = false;    ///< whether there were no more
+    std::uint32_t next = 0;                  ///< of its neighbours
+    std::uint32_t end = 0;                   ///< of its neighbours
+    std::uint32_t asked = kFirstNeighbours;  ///< [#] neighbours that were searched for
+    std::uint32_t used = 0;                  ///< [#] of these that were tested as its neighbours
+    bool complete = false;                   ///< whether there were no more
   };
   /// A member's nearest neighbour that may still be untested.
   struct Candidate {

@@ -99,6 +99,7 @@ std::size_t KdtreeSearch::run(const ImageInput& input, const Parameters& paramet
   effort_.seeds_tried =
       searchSeeds(order_, static_cast<std::size_t>(parameters.seeds), selection, draw_, *this);
   effort_.tests = growing_.effort().tests;
+  effort_.searches = growing_.effort().searches;
   effort_.decompositions = growing_.effort().decompositions;
   return effort_.seeds_tried;
 }

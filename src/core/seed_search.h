@@ -13,6 +13,7 @@ struct SearchEffort {
   std::size_t seeds_tried = 0;
   std::size_t regions_grown = 0;   ///< that went on beyond the check of their tilt
   std::size_t tests = 0;           ///< of candidates: points or tiles
+  std::size_t searches = 0;        ///< for neighbours
   std::size_t decompositions = 0;  ///< into eigenvalues
 };
 
