@@ -159,8 +159,8 @@ std::vector<NamedParameters> parameterSets() {
   near.range_min = 0.05;
   Parameters wide = near;
   wide.delta = {0.1, 0.0};
-  for (const double epsilon : {0.0, 0.002, 0.02, 1.0}) {
-    for (const double gamma : {0.0, 0.005, 0.05, 1.0}) {
+  for (const double epsilon : {0.002, 0.02, 1.0}) {
+    for (const double gamma : {0.005, 0.05}) {
       char name[64];
       std::snprintf(name, sizeof(name), "delta 0.1, epsilon %.3f, gamma %.3f", epsilon, gamma);
       Parameters p = wide;
@@ -169,14 +169,13 @@ std::vector<NamedParameters> parameterSets() {
       all.push_back({name, p});
     }
   }
-  for (const double constant : {0.01, 0.1}) {
-    for (const double quadratic : {0.0, 0.1}) {
-      char name[64];
-      std::snprintf(name, sizeof(name), "delta 0.1, noise %.2f + %.1f z^2", constant, quadratic);
-      Parameters p = wide;
-      p.noise = {constant, quadratic};
-      all.push_back({name, p});
-    }
+  for (const NoiseModel& noise : {NoiseModel{0.01, 0.0}, {0.1, 0.1}}) {
+    char name[64];
+    std::snprintf(name, sizeof(name), "delta 0.1, noise %.2f + %.1f z^2", noise.constant,
+                  noise.quadratic);
+    Parameters p = wide;
+    p.noise = noise;
+    all.push_back({name, p});
   }
   return all;
 }

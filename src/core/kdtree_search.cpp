@@ -9,8 +9,6 @@ namespace {
 
 /// [#] subsampled pixels to either side of r1 from which r2 and r3 are drawn.
 constexpr int kSeedWindow = 8;
-/// [#] tests for each point of the image after which no further region is begun.
-constexpr std::size_t kTestsPerPoint = 2;
 
 }  // namespace
 
@@ -38,9 +36,7 @@ std::size_t KdtreeSearch::availablePoints() const {
   return growing_.unclaimed() * pixels_per_point_;
 }
 
-bool KdtreeSearch::exhausted() const {
-  return growing_.effort().tests > kTestsPerPoint * points_.size();
-}
+bool KdtreeSearch::exhausted() const { return growing_.effort().tests >= points_.size(); }
 
 /// Draws r2 and r3 from the window about r1.
 /// @return false where the window holds too few points.

@@ -18,8 +18,8 @@ namespace dominant_plane_detection {
 
 /// Grows regions of points: every n-th one of every n-th row.
 ///
-/// No further region is begun once twice as many points were tested as there are. A region tests no
-/// point twice, so that an image costs at most three times as many tests as it has points.
+/// No further region is begun once as many tests were made as there are points. A region tests no
+/// point twice, so that an image costs at most twice as many tests as it has points.
 class KdtreeSearch : private RegionSource {
  public:
   /// @param up [-] unit, expected, in the optical frame.

@@ -22,7 +22,7 @@ std::optional<PointRefit::Fit> PointRefit::with(const Eigen::Vector3d& point) co
   // Without z_3 the equation is a quadratic one, and its root is an upper bound.
   const double b = gaps[0] + rho_ * (z2[0] + z2[1]), c = height2 * gaps[0];
   double mu = 2.0 * c / (b + std::sqrt(std::max(0.0, b * b - 4.0 * c)));
-  constexpr double kWellConditioned = 1e8;
+  constexpr double kWellConditioned = 1e6;
   if (!(mu > 0.0 && gaps[0] - mu > kWellConditioned * rounding())) return std::nullopt;
   // Newton's method on mu + rho sum z_i^2 mu / (gap_i - mu) - rho z_1^2, which is increasing and
   // convex: from above it comes down to the root and never passes it.

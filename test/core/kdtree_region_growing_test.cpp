@@ -38,12 +38,15 @@ Refit refit(const Points& points, const std::vector<std::size_t>& region) {
 
 /// At every step: the untested point nearest to the region, of those closer than delta to a point
 /// of it, tested with everything computed anew.
+/// @param claimed points of earlier regions.
 std::vector<std::size_t> growNaively(const Points& points, const Seeds& seeds,
-                                     const GrowthThresholds& thresholds) {
+                                     const GrowthThresholds& thresholds,
+                                     const std::vector<std::size_t>& claimed = {}) {
   const NoiseModel& noise = thresholds.noise;
   std::vector<std::size_t> region(seeds.begin(), seeds.end());
   std::vector<bool> tested(points.size(), false);
   for (const std::size_t seed : seeds) tested[seed] = true;
+  for (const std::size_t point : claimed) tested[point] = true;
   while (true) {
     double nearest_distance = std::numeric_limits<double>::infinity();
     std::size_t nearest = points.size();
@@ -127,13 +130,33 @@ TEST_P(SmallImage, JoinsTheSamePointsInTheSameOrderAsTheDefinition) {
   }
 }
 
+TEST_P(SmallImage, LaterRegionsAreThoseOfThePointsThatAreLeft) {
+  const Points points = smallImage(GetParam());
+  const GrowthThresholds thresholds{NoiseModel(), {0.1, 30.0}, {0.0, 1.0}, {0.0, 1.5}};
+  KdtreeRegionGrowing growing;
+  growing.setPoints(points);
+  std::vector<std::size_t> claimed;
+  for (std::size_t first = 0; first + 30 < points.size(); first += 41) {
+    const Seeds seeds{first, first + 2, first + 25};
+    if (growing.claimed(seeds[0]) || growing.claimed(seeds[1]) || growing.claimed(seeds[2])) {
+      continue;
+    }
+    const std::vector<std::size_t> sequence = growing.grow(seeds, thresholds).sequence;
+    EXPECT_EQ(sequence, growNaively(points, seeds, thresholds, claimed));
+    claimed.insert(claimed.end(), sequence.begin(), sequence.end());
+    EXPECT_EQ(growing.unclaimed() + claimed.size(), points.size());
+  }
+  for (const std::size_t point : claimed) EXPECT_TRUE(growing.claimed(point));
+  EXPECT_GE(claimed.size(), 6U);  // of two regions at least
+}
+
 INSTANTIATE_TEST_SUITE_P(Numbers, SmallImage, testing::Range(0U, 24U));
 
 TEST(KdtreeRegionGrowing, RegionsAreWorthComparing) {
-  KdtreeRegionGrowing growing;
   std::size_t joined = 0, rejected = 0;
   for (unsigned number = 0; number < 24; ++number) {
     const Points points = smallImage(number);
+    KdtreeRegionGrowing growing;
     growing.setPoints(points);
     const auto& region = growing.grow(drawSeeds(points.size(), number),
                                       {NoiseModel(), {0.0, 60.0}, {0.0, 1.0}, {0.0, 3.0}});
@@ -202,6 +225,78 @@ TEST(KdtreeRegionGrowing, FewDecompositionsOnALargeNoisyPlane) {
       growing.grow({20100, 20105, 21100}, {NoiseModel(), {0.05, 0.0}, {0.005, 0.0}, {0.01, 0.0}});
   EXPECT_GT(region.sequence.size(), 39900U);
   EXPECT_LT(growing.effort().decompositions * 20, growing.effort().tests);
+}
+
+/// A grid of points 1 cm apart.
+Points sheet(int columns, int rows) {
+  Points points;
+  for (int v = 0; v < rows; ++v) {
+    for (int u = 0; u < columns; ++u) points.emplace_back(0.01 * u, 1.0, 1.0 + 0.01 * v);
+  }
+  return points;
+}
+const GrowthThresholds kFine{NoiseModel(), {0.015, 0.0}, {0.005, 0.0}, {0.01, 0.0}};
+
+TEST(KdtreeRegionGrowing, RegionsAreCheckedAt200PointsAndAtEachDoubling) {
+  KdtreeRegionGrowing growing;
+  growing.setPoints(sheet(40, 25));
+  std::vector<double> checked;
+  const auto record = [&](const PlaneMoments& moments) {
+    checked.push_back(moments.count());
+    return true;
+  };
+  EXPECT_EQ(growing.grow({0, 1, 40}, kFine, record).sequence.size(), 1000U);
+  EXPECT_EQ(checked, (std::vector<double>{200.0, 400.0, 800.0}));
+}
+
+TEST(KdtreeRegionGrowing, WhatIsGivenUpStaysClaimed) {
+  KdtreeRegionGrowing growing;
+  growing.setPoints(sheet(40, 25));
+  const auto give_up = [](const PlaneMoments&) { return false; };
+  EXPECT_EQ(growing.grow({0, 1, 40}, kFine, give_up).sequence.size(), 200U);
+  EXPECT_EQ(growing.unclaimed(), 800U);
+  EXPECT_TRUE(growing.claimed(0) && !growing.claimed(999));
+  EXPECT_EQ(growing.grow({999, 998, 959}, kFine).sequence.size(), 800U);
+  EXPECT_EQ(growing.unclaimed(), 0U);
+}
+
+TEST(KdtreeRegionGrowing, RejectedPointsAreLeftForOthers) {
+  // A step of 3 cm, on the edge of which both sheets are near enough.
+  Points points = sheet(40, 20);
+  for (const Eigen::Vector3d& low : sheet(40, 20)) {
+    points.emplace_back(low + Eigen::Vector3d(0.0, 0.03, 0.2));
+  }
+  GrowthThresholds thresholds = kFine;
+  thresholds.delta.offset = 0.05;
+  KdtreeRegionGrowing growing;
+  growing.setPoints(points);
+  EXPECT_EQ(growing.grow({0, 1, 40}, thresholds).sequence.size(), 800U);
+  EXPECT_GT(growing.effort().tests, 850U);
+  EXPECT_EQ(growing.grow({1599, 1598, 1559}, thresholds).sequence.size(), 800U);
+}
+
+TEST(KdtreeRegionGrowing, OneDecompositionRefusesManyPoints) {
+  // All points of one sheet are candidates of the other, 3 cm apart, and none may join.
+  Points points = sheet(40, 40);
+  for (const Eigen::Vector3d& low : sheet(40, 40)) {
+    points.emplace_back(low + Eigen::Vector3d(0.0, 0.03, 0.0));
+  }
+  GrowthThresholds thresholds = kFine;
+  thresholds.delta.offset = 0.1;
+  KdtreeRegionGrowing growing;
+  growing.setPoints(points);
+  EXPECT_EQ(growing.grow({0, 1, 40}, thresholds).sequence.size(), 1600U);
+  EXPECT_EQ(growing.effort().tests, 3197U);
+  EXPECT_LT(growing.effort().decompositions, 20U);
+}
+
+TEST(KdtreeRegionGrowing, FewSearchesWithEveryPointWithinDelta) {
+  GrowthThresholds thresholds = kFine;
+  thresholds.delta.offset = 1.0;
+  KdtreeRegionGrowing growing;
+  growing.setPoints(sheet(100, 50));
+  EXPECT_EQ(growing.grow({0, 1, 100}, thresholds).sequence.size(), 5000U);
+  EXPECT_LT(growing.effort().searches, 6 * growing.effort().tests);
 }
 
 TEST(KdtreeRegionGrowing, DegenerateInputsGiveTheSeeds) {
