@@ -5,7 +5,7 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr std::uint32_t kLeafSize = 8;
+constexpr std::uint32_t kLeafSize = 16;
 
 /// Rounds like the distance to any point of the box, so it never exceeds it.
 double squaredDistance(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
