@@ -6,8 +6,8 @@
 #include <random>
 
 #include "core/disparity_table.h"
-#include "core/ground_segmentation.h"
 #include "core/grid_search.h"
+#include "core/ground_segmentation.h"
 #include "core/ray_table.h"
 #include "core/tile_moments.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
@@ -44,7 +44,9 @@ void gridSearch(benchmark::State& state) {
   GridSearch search;
   for (auto _ : state) {
     PlaneSelection result = selection();
-    benchmark::DoNotOptimize(search.run(tiles, Parameters(), result));
+    Effort effort;
+    search.run({tiles, scene().camera, 400}, Parameters(), result, effort);
+    benchmark::DoNotOptimize(effort);
   }
 }
 BENCHMARK(gridSearch)->Unit(benchmark::kMicrosecond);
@@ -54,10 +56,13 @@ void labels(benchmark::State& state) {
   const ReferenceImage& image = scene().images.front();
   const Parameters p;
   GroundSegmentation segmentation;
+  const std::vector<std::uint8_t> everywhere(80 * 60, 1);
   std::vector<std::uint8_t> labels;
+  const DepthView view = depth();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(segmentation.label(depth(), table, image.up, image.height,
-                                                {0.5F, 4.0F, p.noise, p.ground_band, 400}, labels));
+    benchmark::DoNotOptimize(segmentation.label({view, table, {view.metres_per_unit, 0.5F, 4.0F}},
+                                                image.up, image.height, {p.noise, p.ground_band},
+                                                everywhere, labels));
   }
 }
 BENCHMARK(labels)->Unit(benchmark::kMicrosecond);

@@ -202,16 +202,16 @@ void run(const std::string& part) {
           {p.expected_up, p.max_tilt, p.min_height, p.max_height, 640U * 480U / 20U});
       KdtreeSearch search;
       const double begin = threadSeconds();
-      search.run(input, p, p.expected_up, selection);
+      Effort effort;
+      search.run(input, p, selection, effort);
       const double seconds = threadSeconds() - begin;
       if (set.name == "defaults") at_defaults = seconds;
       if (seconds <= slowest) continue;
       slowest = seconds;
-      const SearchEffort& effort = search.effort();
       char counts[128];
       std::snprintf(counts, sizeof(counts),
-                    "; %zu seeds, %zu tests, %zu searches, %zu decompositions", effort.seeds_tried,
-                    effort.tests, effort.searches, effort.decompositions);
+                    "; %zu seeds, %zu tests, %zu searches, %zu decompositions", effort.seeds,
+                    effort.tests, effort.searches, effort.fits);
       slowest_name = set.name + counts;
     }
     slowest_of_all = std::max(slowest_of_all, slowest);

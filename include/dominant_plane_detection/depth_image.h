@@ -12,6 +12,14 @@ namespace dominant_plane_detection {
 struct DepthView {
   enum class Type : std::uint8_t { kUint16, kFloat32 };
 
+  DepthView() = default;
+  /// @param image_step [byte] 0: the rows follow each other without a gap.
+  DepthView(const std::uint16_t* pixels, int image_width, int image_height,
+            float unit_in_metres = 0.001F, std::size_t image_step = 0)
+      : DepthView(pixels, image_width, image_height, image_step, Type::kUint16, unit_in_metres) {}
+  DepthView(const float* pixels, int image_width, int image_height, std::size_t image_step = 0)
+      : DepthView(pixels, image_width, image_height, image_step, Type::kFloat32, 1.0F) {}
+
   const void* data = nullptr;
   int width = 0;                   ///< [px]
   int height = 0;                  ///< [px]
@@ -24,6 +32,19 @@ struct DepthView {
   const T* row(int v) const {
     return reinterpret_cast<const T*>(static_cast<const std::uint8_t*>(data) +
                                       static_cast<std::size_t>(v) * step);
+  }
+
+ private:
+  DepthView(const void* pixels, int image_width, int image_height, std::size_t image_step,
+            Type pixel_type, float unit_in_metres)
+      : data(pixels),
+        width(image_width),
+        height(image_height),
+        step(image_step),
+        type(pixel_type),
+        metres_per_unit(unit_in_metres) {
+    const std::size_t pixel = pixel_type == Type::kUint16 ? sizeof(std::uint16_t) : sizeof(float);
+    if (step == 0 && width > 0) step = static_cast<std::size_t>(width) * pixel;
   }
 };
 

@@ -34,18 +34,20 @@ enum class Label : std::uint8_t {
 /// Where the expected "up" direction came from. The values are those of DominantPlane.msg.
 enum class UpSource : std::uint8_t { kNone = 0, kFixed, kImu, kTf };
 
-/// [#] The work that a detection took.
+/// [#] The work that a detection took. Counts, never times: the same image takes the same.
 struct Effort {
-  std::size_t seeds = 0;    ///< that were tried
-  std::size_t regions = 0;  ///< that were grown
-  std::size_t joined = 0;   ///< tiles (grid) or points (kdtree) that joined these
-  std::size_t fits = 0;     ///< of a plane
+  std::size_t seeds = 0;     ///< that were tried
+  std::size_t regions = 0;   ///< that were grown
+  std::size_t tests = 0;     ///< of candidates: tiles (grid) or points (kdtree)
+  std::size_t joined = 0;    ///< of these, those that joined a region
+  std::size_t fits = 0;      ///< of a plane
+  std::size_t searches = 0;  ///< in the k-d tree (kdtree)
 };
 
 /// The dominant plane of one depth image, in the depth optical frame.
 ///
 /// Without a plane (state other than kFound) the numbers are NaN, the counts 0 and every label
-/// kUnknown.
+/// kUnknown; with kBadInput the image has no size and no labels either.
 struct Detection {
   State state = State::kNoDepth;
   std::string reason;  ///< empty when found, otherwise one sentence with the numbers

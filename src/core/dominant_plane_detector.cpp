@@ -17,6 +17,9 @@
 namespace dominant_plane_detection {
 namespace {
 
+/// [px] Larger images come from no depth camera, but from broken headers.
+constexpr int kMaxSide = 16384;
+
 using Sentence = std::array<char, 256>;
 
 void requireValid(const Parameters& parameters) {
@@ -36,9 +39,17 @@ bool check(const DepthView& depth, const CameraModel& camera, const Prior& prior
     return refuse("Expected a depth image, got an empty one of %d x %d pixels.", depth.width,
                   depth.height);
   }
+  if (depth.width > kMaxSide || depth.height > kMaxSide) {
+    return refuse("Expected a depth image of at most %d pixels a side, got %d x %d.", kMaxSide,
+                  depth.width, depth.height);
+  }
   const std::size_t row = static_cast<std::size_t>(depth.width) * pixelSize(depth.type);
   if (depth.step < row) {
     return refuse("Expected rows of at least %zu bytes, got a step of %zu.", row, depth.step);
+  }
+  if (!(metresPerUnit(depth) > 0.0F && std::isfinite(metresPerUnit(depth)))) {
+    return refuse("Expected metres_per_unit to be positive and finite, got %g.",
+                  static_cast<double>(depth.metres_per_unit));
   }
   if (!camera.valid()) {
     return refuse("Expected finite, positive focal lengths, got fx = %g, fy = %g.", camera.fx,
@@ -51,6 +62,10 @@ bool check(const DepthView& depth, const CameraModel& camera, const Prior& prior
   const double up_length = prior.expected_up ? prior.expected_up->norm() : 1.0;
   if (!(up_length > 1e-3 && std::isfinite(up_length))) {
     return refuse("Expected an up direction, got a vector of length %g.", up_length);
+  }
+  if (prior.height_range && !(prior.height_range->min < prior.height_range->max)) {
+    return refuse("Expected a height range that ascends, got %g to %g m.", prior.height_range->min,
+                  prior.height_range->max);
   }
   return true;
 }
@@ -67,9 +82,11 @@ class DominantPlaneDetector::Implementation {
   const Parameters& parameters() const { return parameters_; }
 
   const Detection& detect(const DepthView& depth, const CameraModel& camera, const Prior& prior) {
-    clear(depth, prior);
+    clear(prior);
     Sentence sentence{};
     if (!check(depth, camera, prior, sentence)) return refuse(State::kBadInput, sentence);
+    detection_.image_width = depth.width;
+    detection_.image_height = depth.height;
     rays_.build(camera);
     const ImageInput input{depth, rays_, {metresPerUnit(depth), rangeMin(), rangeMax()}};
     computeTileMoments(depth, rays_, rangeMin(), rangeMax(), tiles_);
@@ -104,7 +121,7 @@ class DominantPlaneDetector::Implementation {
       grid_.run(image, parameters_, selection, detection_.effort);
       return;
     }
-    detection_.effort.seeds = kdtree_.run(input, parameters_, selection.limits().expected_up, selection);
+    kdtree_.run(input, parameters_, selection, detection_.effort);
     if (selection.found()) grid_.collectGround(image, parameters_, selection.plane());
   }
 
@@ -119,7 +136,7 @@ class DominantPlaneDetector::Implementation {
   float rangeMax() const { return static_cast<float>(parameters_.range_max); }
 
   /// Everything as it is without a plane; memory is kept.
-  void clear(const DepthView& depth, const Prior& prior) {
+  void clear(const Prior& prior) {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     detection_.state = State::kNoDepth;
     detection_.reason.clear();
@@ -131,8 +148,7 @@ class DominantPlaneDetector::Implementation {
     detection_.valid_pixels = 0;
     detection_.effort = Effort();
     detection_.up_source = prior.expected_up ? prior.up_source : UpSource::kFixed;
-    detection_.image_width = std::max(depth.width, 0);
-    detection_.image_height = std::max(depth.height, 0);
+    detection_.image_width = detection_.image_height = 0;
   }
 
   PlaneLimits limits(const Prior& prior) const {
@@ -158,8 +174,8 @@ class DominantPlaneDetector::Implementation {
     const HessePlane& plane = selection.plane();
     const Eigen::Vector3d normal = -plane.normal;
     const SegmentationCounts counts = segmentation_.label(
-        input, normal, plane.distance, {parameters_.noise, parameters_.ground_band}, tiles_,
-        grid_.ground(), detection_.labels);
+        input, normal, plane.distance, {parameters_.noise, parameters_.ground_band}, grid_.ground(),
+        detection_.labels);
     if (counts.ground < selection.minPoints()) {
       Sentence sentence{};
       std::snprintf(

@@ -82,6 +82,7 @@ bool GridSearch::tryRegion(std::size_t tile) {
   ++effort_->regions;
   effort_->joined += grown.tiles.size();
   effort_->fits += growth_.fits();
+  effort_->tests += growth_.tests();
   if (grown.points < selection_->toBeat() / 2) {
     // What is far from being the largest even now will not become so.
     selection_->consider(grown.plane, grown.points);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/label_kernel.h"
+#include "core/tile_moments.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -20,12 +21,12 @@ LabelRule labelRule(const Eigen::Vector3d& normal, double distance,
 
 SegmentationCounts GroundSegmentation::label(const ImageInput& input, const Eigen::Vector3d& normal,
                                              double distance, const SegmentationLimits& limits,
-                                             const TileMoments& tiles,
                                              const std::vector<std::uint8_t>& region,
                                              std::vector<std::uint8_t>& labels) {
   labels.resize(static_cast<std::size_t>(input.depth.width) *
                 static_cast<std::size_t>(input.depth.height));
-  widen(tiles.columns, tiles.rows, region);
+  const auto tiles = [](int pixels) { return (pixels + kTileSize - 1) / kTileSize; };
+  widen(tiles(input.depth.width), tiles(input.depth.height), region);
   const LabelSums sums = runLabelKernel(input, labelRule(normal, distance, limits),
                                         near_ground_.data(), labels.data());
   SegmentationCounts counts;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/image_kernel.h"
-#include "core/tile_moments.h"
 #include "dominant_plane_detection/noise_model.h"
 
 namespace dominant_plane_detection {
@@ -30,11 +29,11 @@ class GroundSegmentation {
  public:
   /// @param normal [-] unit normal from the plane to the camera.
   /// @param distance [m] camera's height over the plane.
-  /// @param tiles of the image; only its size matters.
-  /// @param region 1 for the tiles of the plane's region, row-major, at least `tiles.size()`.
+  /// @param region 1 for the tiles of the plane's region, row-major; as many as cover the image, or
+  /// more.
   /// @param labels one `Label` a pixel, row-major; resized to the image.
   SegmentationCounts label(const ImageInput& input, const Eigen::Vector3d& normal, double distance,
-                           const SegmentationLimits& limits, const TileMoments& tiles,
+                           const SegmentationLimits& limits,
                            const std::vector<std::uint8_t>& region,
                            std::vector<std::uint8_t>& labels);
 

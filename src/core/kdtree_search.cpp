@@ -74,30 +74,30 @@ bool KdtreeSearch::tryRegion(std::size_t cell) {
     return !given_up;
   };
   const KdtreeRegionGrowing::Region& region = growing_.grow(seeds, thresholds_, worthwhile);
-  if (!given_up) ++effort_.regions_grown;
+  if (!given_up) ++effort_->regions;
+  effort_->joined += region.sequence.size();
   const auto fit = region.moments.fit();
   if (fit) selection_->consider(fit->plane, region.sequence.size() * pixels_per_point_);
   return true;
 }
 
-std::size_t KdtreeSearch::run(const ImageInput& input, const Parameters& parameters,
-                              const Eigen::Vector3d& up, PlaneSelection& selection) {
-  effort_ = SearchEffort();
+void KdtreeSearch::run(const ImageInput& input, const Parameters& parameters,
+                       PlaneSelection& selection, Effort& effort) {
   collectPoints(input, parameters.subsampling);
   growing_.setPoints(points_);
   thresholds_ = growthThresholds(parameters);
   selection_ = &selection;
+  effort_ = &effort;
   pixels_per_point_ = static_cast<std::size_t>(parameters.subsampling) *
                       static_cast<std::size_t>(parameters.subsampling);
   const CameraModel& camera = input.rays.camera();
-  order_.build(columns_, rows_, {camera.fx, camera.fy}, up);
+  order_.build(columns_, rows_, {camera.fx, camera.fy}, selection.limits().expected_up);
   draw_.restart(static_cast<std::uint32_t>(parameters.random_seed));
-  effort_.seeds_tried =
+  effort.seeds +=
       searchSeeds(order_, static_cast<std::size_t>(parameters.seeds), selection, draw_, *this);
-  effort_.tests = growing_.effort().tests;
-  effort_.searches = growing_.effort().searches;
-  effort_.decompositions = growing_.effort().decompositions;
-  return effort_.seeds_tried;
+  effort.tests += growing_.effort().tests;
+  effort.fits += growing_.effort().decompositions;
+  effort.searches += growing_.effort().searches;
 }
 
 }  // namespace dominant_plane_detection

@@ -12,6 +12,7 @@
 #include "core/seed_order.h"
 #include "core/seed_search.h"
 #include "core/seed_selection.h"
+#include "dominant_plane_detection/detection.h"
 #include "dominant_plane_detection/parameters.h"
 
 namespace dominant_plane_detection {
@@ -22,13 +23,9 @@ namespace dominant_plane_detection {
 /// point twice, so that an image costs at most twice as many tests as it has points.
 class KdtreeSearch : private RegionSource {
  public:
-  /// @param up [-] unit, expected, in the optical frame.
-  /// @return [#] seeds that were tried.
-  std::size_t run(const ImageInput& input, const Parameters& parameters, const Eigen::Vector3d& up,
-                  PlaneSelection& selection);
-
-  /// What the last `run` cost.
-  const SearchEffort& effort() const { return effort_; }
+  /// @param effort is added to.
+  void run(const ImageInput& input, const Parameters& parameters, PlaneSelection& selection,
+           Effort& effort);
 
  private:
   bool available(std::size_t cell) const override;
@@ -49,7 +46,7 @@ class KdtreeSearch : private RegionSource {
   int rows_ = 0;                          ///< [#]
   std::vector<Eigen::Vector3d> points_;   ///< [m]
   std::vector<std::ptrdiff_t> point_of_;  ///< point of each subsampled pixel, -1: no reading
-  SearchEffort effort_;
+  Effort* effort_ = nullptr;
 };
 
 }  // namespace dominant_plane_detection

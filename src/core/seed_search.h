@@ -8,15 +8,6 @@
 
 namespace dominant_plane_detection {
 
-/// [#] What the search of one image cost. Counts, never times: the same image costs the same.
-struct SearchEffort {
-  std::size_t seeds_tried = 0;
-  std::size_t regions_grown = 0;   ///< that went on beyond the check of their tilt
-  std::size_t tests = 0;           ///< of candidates: points or tiles
-  std::size_t searches = 0;        ///< for neighbours
-  std::size_t decompositions = 0;  ///< into eigenvalues
-};
-
 /// An algorithm that grows regions from single cells of an image, and claims what it has seen.
 class RegionSource {
  public:

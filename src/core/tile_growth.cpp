@@ -29,7 +29,7 @@ void TileGrowth::clear() {
   reach_ = 0;
   moments_ = PlaneMoments();
   sum_epsilon2_ = sum_square_ = fitted_count_ = 0.0;
-  fits_ = 0;
+  fits_ = tests_ = 0;
 }
 
 void TileGrowth::join(const TileJudge& judge, std::size_t tile, Mode mode) {
@@ -55,6 +55,7 @@ bool TileGrowth::mayJoin(const TileJudge& judge, std::size_t tile, Mode mode,
 void TileGrowth::tryToJoin(const TileJudge& judge, std::size_t tile, std::size_t from, Mode mode,
                            const std::vector<std::uint8_t>& taken) {
   if (!mayJoin(judge, tile, mode, taken)) return;
+  ++tests_;
   const TileMoments& tiles = judge.tiles();
   if (!closerThanDelta(tiles, judge.limits(), tile, from)) return;
   const double count = static_cast<double>(tiles.count[tile]);

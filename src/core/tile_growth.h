@@ -51,6 +51,8 @@ class TileGrowth {
 
   /// @return [#] of plane fits that the last `grow` made.
   std::size_t fits() const { return fits_; }
+  /// @return [#] of tiles on the plane that were held against delta and epsilon since it began.
+  std::size_t tests() const { return tests_; }
 
  private:
   /// What joins, and what becomes of the plane.
@@ -86,6 +88,7 @@ class TileGrowth {
   double sum_epsilon2_ = 0.0;  ///< [m^2] over the region's points
   double sum_square_ = 0.0;    ///< [m^2] of their heights over the planes they were judged by
   std::size_t fits_ = 0;
+  std::size_t tests_ = 0;
 };
 
 }  // namespace dominant_plane_detection

@@ -12,8 +12,8 @@
 namespace dominant_plane_detection {
 namespace {
 
-const SegmentationLimits kLimits{0.5F, 4.0F, NoiseModel{0.002, 1.425e-3}, DepthThreshold{0.0, 3.0},
-                                 0};
+const SegmentationLimits kLimits{NoiseModel{0.002, 1.425e-3}, DepthThreshold{0.0, 3.0}};
+constexpr ReadingRange kRange{1.0F, 0.5F, 4.0F};
 
 struct Size {
   int width;
@@ -36,8 +36,17 @@ TEST_P(LabelledSize, EveryPixelByItsHeight) {
   rays.build(camera);
   GroundSegmentation segmentation;
   std::vector<std::uint8_t> labels;
+  const DepthView view = depth.view();
+  // The region is every second column of tiles but the first ten: all pixels from the ninth tile on
+  // are in it or next to it.
+  const int columns = (depth.width + 7) / 8, rows = (depth.height + 7) / 8;
+  std::vector<std::uint8_t> region(static_cast<std::size_t>(columns * rows));
+  for (std::size_t i = 0; i < region.size(); ++i) {
+    const int column = static_cast<int>(i) % columns;
+    region[i] = columns < 10 || (column >= 10 && column % 2 == 0);
+  }
   const SegmentationCounts counts =
-      segmentation.label(depth.view(), rays, up, height, kLimits, labels);
+      segmentation.label({view, rays, kRange}, up, height, kLimits, region, labels);
   ASSERT_EQ(labels.size(), depth.pixels.size());
   std::size_t ground = 0;
   double sum_squares = 0.0;
@@ -51,6 +60,7 @@ TEST_P(LabelledSize, EveryPixelByItsHeight) {
                                            : Label::kDropOff;
       if (!(z >= 0.5 && z <= 4.0)) expected = Label::kUnknown;
       if (std::abs(std::abs(h) - band) < 1e-5) continue;  // float decides
+      if (expected == Label::kGround && columns >= 10 && u < 72) expected = Label::kUnknown;
       const std::size_t i = static_cast<std::size_t>(v * depth.width + u);
       ASSERT_EQ(static_cast<int>(labels[i]), static_cast<int>(expected)) << u << ", " << v;
       if (expected == Label::kGround) {
@@ -68,29 +78,32 @@ TEST_P(LabelledSize, EveryPixelByItsHeight) {
 INSTANTIATE_TEST_SUITE_P(Sizes, LabelledSize,
                          testing::Values(Size{640, 480}, Size{321, 239}, Size{1, 1}, Size{15, 9}));
 
-/// A wall 2 m away with floor-high readings in two places: a patch of 20 x 20 pixels and a speck.
-TEST(GroundSegmentation, SpecksAreNoGroundPatchesAre) {
+/// One tile in the middle of a floor is the region.
+TEST(GroundSegmentation, GroundEndsOneTileBeyondTheRegion) {
   const CameraModel camera = testCamera();
   const Eigen::Vector3d up = upOf(0.5);
-  OwnedDepth<float> depth = planeDepth(camera, up, 0.9);
-  OwnedDepth<float> scene(camera.width, camera.height);
-  const auto copy = [&](int left, int top, int size) {
-    for (int v = top; v < top + size; ++v) {
-      for (int u = left; u < left + size; ++u) scene.at(u, v) = depth.at(u, v);
-    }
-  };
-  copy(100, 300, 20);
-  copy(400, 300, 19);
+  const OwnedDepth<float> depth = planeDepth(camera, up, 0.9);
   RayTable rays;
   rays.build(camera);
+  std::vector<std::uint8_t> region(80 * 60, 0), labels;
+  region[40 * 80 + 30] = 1;
   GroundSegmentation segmentation;
-  std::vector<std::uint8_t> labels;
-  SegmentationLimits limits = kLimits;
-  limits.min_patch = 400;
-  const auto counts = segmentation.label(scene.view(), rays, up, 0.9, limits, labels);
-  EXPECT_EQ(counts.ground, 400U);
-  EXPECT_EQ(labels[310 * 640 + 110], static_cast<std::uint8_t>(Label::kGround));
-  EXPECT_EQ(labels[310 * 640 + 410], static_cast<std::uint8_t>(Label::kUnknown));
+  const DepthView view = depth.view();
+  const auto counts = segmentation.label({view, rays, kRange}, up, 0.9, kLimits, region, labels);
+  EXPECT_EQ(counts.ground, 24U * 24U);
+  for (int v = 280; v < 380; ++v) {
+    for (int u = 200; u < 300; ++u) {
+      const bool near = u >= 29 * 8 && u < 32 * 8 && v >= 39 * 8 && v < 42 * 8;
+      ASSERT_EQ(labels[static_cast<std::size_t>(v * 640 + u)],
+                static_cast<std::uint8_t>(near ? Label::kGround : Label::kUnknown))
+          << u << ", " << v;
+    }
+  }
+  // At the image's corners as well, and not beyond its sides.
+  region.assign(region.size(), 0);
+  region[59 * 80] = region[59 * 80 + 79] = 1;
+  EXPECT_EQ(segmentation.label({view, rays, kRange}, up, 0.9, kLimits, region, labels).ground,
+            2U * 16U * 16U);
 }
 
 }  // namespace

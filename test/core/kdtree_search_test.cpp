@@ -41,7 +41,7 @@ Image noisy(Image image) {
 
 struct Searched {
   PlaneSelection selection;
-  SearchEffort effort;
+  Effort effort;
 };
 
 Searched search(const Image& image, const Parameters& parameters = Parameters()) {
@@ -54,9 +54,9 @@ Searched search(const Image& image, const Parameters& parameters = Parameters())
       {1.0F, static_cast<float>(parameters.range_min), static_cast<float>(parameters.range_max)}};
   PlaneSelection selection({kUp, parameters.max_tilt, 0.0, 10.0, 4 * kPoints / 20});
   KdtreeSearch kdtree;
-  const std::size_t tried = kdtree.run(input, parameters, kUp, selection);
-  EXPECT_EQ(tried, kdtree.effort().seeds_tried);
-  return {selection, kdtree.effort()};
+  Effort effort;
+  kdtree.run(input, parameters, selection, effort);
+  return {selection, effort};
 }
 
 TEST(KdtreeSearch, AWallIsGrownOnceAndSaysWhyThereIsNoGround) {
@@ -68,8 +68,8 @@ TEST(KdtreeSearch, AWallIsGrownOnceAndSaysWhyThereIsNoGround) {
     EXPECT_GT(wall.effort.tests, kPoints / 2) << distance;
   }
   const Searched exact = search(draw([](int, int) { return 2.0; }));
-  EXPECT_EQ(exact.effort.seeds_tried, 1U);
-  EXPECT_EQ(exact.effort.regions_grown, 1U);
+  EXPECT_EQ(exact.effort.seeds, 1U);
+  EXPECT_EQ(exact.effort.regions, 1U);
   EXPECT_EQ(exact.effort.tests, kPoints - 3);
 }
 
@@ -84,11 +84,11 @@ TEST(KdtreeSearch, TiltedRegionsAreGivenUpOnceThereIsGround) {
   EXPECT_GT(-result.selection.plane().normal.dot(upOf(0.3)), std::cos(0.02));
   EXPECT_NEAR(static_cast<double>(result.selection.points()), 0.4 * 4 * kPoints,
               0.02 * 4 * kPoints);
-  EXPECT_GT(result.effort.seeds_tried, 10U);
+  EXPECT_GT(result.effort.seeds, 10U);
   // The floor, and at most what the window of a seed cuts from its edge.
-  EXPECT_LE(result.effort.regions_grown, 2U);
+  EXPECT_LE(result.effort.regions, 2U);
   // The floor, and of each seed on the wall a little more than 200 points.
-  EXPECT_LT(result.effort.tests, 2 * kPoints / 5 + 300 * result.effort.seeds_tried);
+  EXPECT_LT(result.effort.tests, 2 * kPoints / 5 + 300 * result.effort.seeds);
 }
 
 TEST(KdtreeSearch, ASmallFloorIsFoundBehindWallsThatAreGrownFirst) {
@@ -110,7 +110,7 @@ TEST(KdtreeSearch, ASmallFloorIsFoundBehindWallsThatAreGrownFirst) {
 TEST(KdtreeSearch, EndsWhenNoLargerRegionIsLeft) {
   const Searched floor = search(planeDepth(testCamera(kWidth, kHeight), upOf(0.9), 0.8));
   EXPECT_TRUE(floor.selection.found());
-  EXPECT_EQ(floor.effort.seeds_tried, 1U);
+  EXPECT_EQ(floor.effort.seeds, 1U);
 }
 
 TEST(KdtreeSearch, TheUpDirectionSaysWhichHalfIsSearchedFirst) {
@@ -181,10 +181,10 @@ TEST_P(HardImage, CostsABoundedNumberOfTestsAndSearches) {
        {std::pair(0.0, 0.05), {0.002, 0.005}, {0.02, 0.05}, {0.02, 0.005}, {1.0, 1.0}}) {
     parameters.epsilon = {epsilon, 0.0};
     parameters.gamma = {gamma, 0.0};
-    const SearchEffort effort = search(image, parameters).effort;
+    const Effort effort = search(image, parameters).effort;
     EXPECT_LE(effort.tests, 2 * kPoints) << epsilon << " " << gamma;
     EXPECT_LE(effort.searches, 10 * kPoints) << epsilon << " " << gamma;
-    EXPECT_LE(effort.decompositions, 2 * kPoints) << epsilon << " " << gamma;
+    EXPECT_LE(effort.fits, 2 * kPoints) << epsilon << " " << gamma;
   }
 }
 
