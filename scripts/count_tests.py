@@ -25,8 +25,8 @@ def cases(folder, ctest_results):
     for path in sorted(pathlib.Path(folder).rglob("*.xml")):
         yield from xml.etree.ElementTree.parse(path).getroot().iter("testcase")
     for case in xml.etree.ElementTree.parse(ctest_results).getroot().iter("testcase"):
-        # A whole gtest or rostest program, whose own file says more, or lint.
-        if case.get("name").startswith("lint_"):
+        # A whole gtest or rostest program, whose own file says more, or one without such a file.
+        if case.get("name").startswith(("lint_", "mutate_")):
             yield case
 
 

@@ -23,7 +23,7 @@ def operand(text):
     text = outside = source.flat(text)
     while re.search(r"[(\[<][^()\[\]<>]*[)\]>]", outside):
         outside = re.sub(r"[(\[<][^()\[\]<>]*[)\]>]", "", outside)
-    return text if re.fullmatch(r"[\w.:]+(->[\w.:]+)*", outside) else "({})".format(text)
+    return text if re.fullmatch(r"[\w.:]*(->[\w.:]+)*", outside) else "({})".format(text)
 
 
 class Expressions(Code):
