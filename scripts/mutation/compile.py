@@ -8,8 +8,8 @@ from mutation.build_tree import BuildError
 class Compilation:
     """All mutants together; the numbers of those that had to be left out are in `invalid`."""
 
-    def __init__(self, tree, texts, units):
-        self._tree, self._texts = tree, texts
+    def __init__(self, tree, texts, units, jobs):
+        self._tree, self._texts, self._jobs = tree, texts, jobs
         self._units = units  # {file: command} of the units that see the mutated files
         self._commands = tree.commands()
         self._active = {}    # number -> mutant
@@ -22,7 +22,7 @@ class Compilation:
         self._active.update(numbered)
         pending = self._write()
         while pending:
-            with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            with concurrent.futures.ThreadPoolExecutor(self._jobs) as pool:
                 results = dict(zip(pending, pool.map(self._check, pending)))
             failed = [unit for unit in pending if results[unit]]
             if failed:
@@ -33,11 +33,11 @@ class Compilation:
                 pending = []
         return self.invalid - before
 
-    def make(self, targets, jobs):
+    def make(self, targets):
         """Builds; returns the numbers of the mutants that only the tests did not compile with."""
         before = set(self.invalid)
         while True:
-            errors = self._tree.make(targets, jobs)
+            errors = self._tree.make(targets, self._jobs)
             if not errors:
                 return self.invalid - before
             self._drop([errors])

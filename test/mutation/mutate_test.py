@@ -1,5 +1,7 @@
 #!/usr/bin/python3
 """Tests the mutation test with a sample: what each of its mutants gives."""
+import contextlib
+import io
 import os
 import pathlib
 import subprocess
@@ -10,7 +12,7 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent.parent / "scripts"))
 # pylint: disable=wrong-import-position
-from mutation import draw, lists, operators, run, schemata, source, units  # noqa: E402
+from mutation import draw, lists, operators, result, run, schemata, source, units  # noqa: E402
 from mutation.finder import Finder  # noqa: E402
 
 # What the sample prints, by place.
@@ -171,6 +173,41 @@ class ListsTest(Sample):
         with self.assertRaisesRegex(lists.ListError, "sample.h has no such line"):
             self.read("- {file: sample.h, line: return z;, mutation: z -> y, argument: none}",
                       lists.read_equivalent, self.finder.texts)
+
+
+class ResultTest(unittest.TestCase):
+    """When a run succeeds."""
+
+    def summary(self, **counts):
+        """Returns whether so many drawn mutants of each status are good enough, and the text."""
+        results = [result.Result("1", False, "a.cpp", 1, "a < b", "< -> <=", status, "", "")
+                   for status, count in counts.items() for _ in range(count)]
+        results.append(result.Result("name", True, "a.cpp", 1, "a", "a -> b", self.named, "", ""))
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            good = result.summarise(results, 0, 1.0)
+        return good, printed.getvalue()
+
+    def setUp(self):
+        self.named = "killed"
+
+    def test_score_counts_those_that_are_not_equivalent(self):
+        good, text = self.summary(killed=19, survived=1, equivalent=2)
+        self.assertTrue(good)
+        self.assertIn("score: 95.0% of those not equivalent, 86.4% of all drawn", text)
+        self.assertFalse(self.summary(killed=18, survived=1, equivalent=2)[0])
+
+    def test_survivors_are_printed(self):
+        self.assertIn("1  a.cpp:1\n    a < b\n    < -> <=", self.summary(survived=1)[1])
+
+    def test_too_many_or_wrong_excuses_fail(self):
+        self.assertTrue(self.summary(killed=18, equivalent=2)[0])
+        self.assertFalse(self.summary(killed=17, equivalent=2)[0])
+        self.assertFalse(self.summary(killed=20, contradicted=1)[0])
+
+    def test_surviving_named_mutant_fails(self):
+        self.named = "survived"
+        self.assertFalse(self.summary(killed=20)[0])
 
 
 if __name__ == "__main__":
