@@ -36,12 +36,12 @@ class BuildTree:
     def copy(self, changed, kept=()):
         """Makes the copy equal to the tree, with `changed` texts of some files.
 
-        `kept` files stay as an earlier run left them.
+        Files that end with one of `kept` stay as an earlier run left them.
         """
         names = set(tracked(self.root))
         for name in sorted(names):
             path = self.sources / name
-            if name in kept and path.exists():
+            if name.endswith(tuple(kept)) and path.exists():
                 continue
             text = changed.get(name) or source.read(self.root / name)
             if not path.exists() or source.read(path) != text:
