@@ -8,7 +8,7 @@ ARITHMETIC = {"+": ("-",), "-": ("+",), "*": ("/",), "/": ("*",), "%": ("*",)}
 ASSIGNMENTS = {sign + "=": tuple(other + "=" for other in others)
                for sign, others in ARITHMETIC.items()}
 
-# Functions of Highway by others with the same arguments and result.
+# Functions of Highway, which the sources call hn, by others with the same arguments and result.
 VECTOR_FUNCTIONS = {
     "Add": ("Sub",), "Sub": ("Add",), "Mul": ("Add",), "Div": ("Mul",),
     "MulAdd": ("MulSub",), "MulSub": ("MulAdd",), "NegMulAdd": ("MulAdd",),
