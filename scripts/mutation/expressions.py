@@ -101,5 +101,5 @@ class Expressions(Code):
         for other in operators.VECTOR_FUNCTIONS.get(name, ()):
             self._add(cursor, demoted, "hn::{}({}".format(other, rest))
         if name in operators.VECTOR_IDENTITIES:
-            argument = list(cursor.get_children())[-operators.VECTOR_IDENTITIES[name]]
-            self._add(cursor, demoted, "({})".format(source.flat(self._text(argument))))
+            argument = self._text(list(cursor.get_children())[-1])
+            self._add(cursor, demoted, "({})".format(source.flat(argument)))

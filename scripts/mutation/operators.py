@@ -16,8 +16,8 @@ VECTOR_FUNCTIONS = {
     "Eq": ("Ne",), "Ne": ("Eq",), "And": ("Or",), "Or": ("And",), "Min": ("Max",), "Max": ("Min",),
     "InterleaveLower": ("InterleaveUpper",), "InterleaveUpper": ("InterleaveLower",),
 }
-# Those of which an argument alone will do, by its place from the end.
-VECTOR_IDENTITIES = {"Abs": 1, "Neg": 1, "IfThenElseZero": 1}
+# Those of which the last argument alone will do.
+VECTOR_IDENTITIES = {"Abs", "Neg", "IfThenElseZero"}
 VECTOR_CALL = re.compile(r"hn::(\w+)\s*\(")
 
 INTEGER = re.compile(r"(0[xX][0-9a-fA-F]+|\d+)[uUlL]*$")
