@@ -15,6 +15,7 @@ inline std::vector<ReferenceSet> loadAllSets(std::uint32_t random_scenes) {
     if (!set.images.empty()) sets.push_back(std::move(set));
   }
   sets.push_back(loadRandomScenes(random_scenes));
+  sets.push_back(loadSmoothRandomScenes(random_scenes));
   return sets;
 }
 

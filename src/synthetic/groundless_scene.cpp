@@ -15,8 +15,9 @@ using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
-constexpr double kWide = 12.0;       // [m] beyond what a camera sees
-constexpr double kMaxShare = 0.05;   // [-] of a surface that is no ground
+constexpr double kWide = 12.0;  // [m] beyond what a camera sees
+/// [-] of a surface that is no ground; the margin is for the readings that a sensor loses.
+constexpr double kMaxShare = 0.04;
 constexpr double kMinPixels = 0.1;   // [-] of the image, between 0.5 and 4 m
 constexpr double kMaxTilt = 75.0;    // [deg] between ground and up
 constexpr double kConeAngle = 10.0;  // [deg] of normals that are taken for one surface's

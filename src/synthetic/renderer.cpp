@@ -8,8 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/ray_table.h"
 #include "dominant_plane_detection/detection.h"
+#include "synthetic/camera_rays.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -51,8 +51,8 @@ void aim(const Eigen::Vector3f& direction, float far, RTCRay& ray) {
 
 class Renderer::Implementation {
  public:
-  explicit Implementation(const Scene& scene) : objects_(scene.objects) {
-    rays_.build(scene.camera);
+  explicit Implementation(const Scene& scene)
+      : objects_(scene.objects), camera_(scene.camera), rays_(cameraRays(scene.camera)) {
     device_ = rtcNewDevice("threads=1");
     if (device_ == nullptr) throw std::runtime_error("Embree does not start on this machine");
     scene_ = rtcNewScene(device_);
@@ -68,13 +68,12 @@ class Renderer::Implementation {
   Implementation& operator=(const Implementation&) = delete;
 
   Rendering render(const Eigen::Isometry3d& pose, const Layers& layers) const {
-    const CameraModel& camera = rays_.camera();
     Rendering rendering;
-    rendering.width = camera.width;
-    rendering.height = camera.height;
-    rendering.focal_length = camera.fx;
+    rendering.width = camera_.width;
+    rendering.height = camera_.height;
+    rendering.focal_length = camera_.fx;
     const auto pixels =
-        static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+        static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height);
     rendering.depth.resize(pixels);
     rendering.cosine.resize(pixels);
     rendering.labels.resize(pixels);
@@ -85,8 +84,8 @@ class Renderer::Implementation {
     rendering.normal = pose.linear().transpose() * Eigen::Vector3d::UnitZ();
     rendering.distance = pose.translation().z();
 
-    Row row(pose.cast<float>(), static_cast<std::size_t>(camera.width));
-    for (int v = 0; v < camera.height; ++v) {
+    Row row(pose.cast<float>(), static_cast<std::size_t>(camera_.width));
+    for (int v = 0; v < camera_.height; ++v) {
       castRow(pose.cast<float>(), v, row);
       shadeRow(pose.cast<float>(), v, row, rendering);
       if (layers.shadow) shadowRow(v, row, rendering);
@@ -119,9 +118,9 @@ class Renderer::Implementation {
   static bool hasHit(const RTCRayHit& hit) { return hit.hit.geomID != RTC_INVALID_GEOMETRY_ID; }
 
   void castRow(const Eigen::Isometry3f& pose, int v, Row& row) const {
-    int u = 0;
+    std::size_t pixel = static_cast<std::size_t>(v) * row.hits.size();
     for (RTCRayHit& hit : row.hits) {
-      const Eigen::Vector3f ray = rays_.ray(u++, v);
+      const Eigen::Vector3f ray = rays_[pixel++].homogeneous();
       // The direction's z is 1 in the optical frame: the ray's parameter is the depth. Where the
       // lens sees nothing the ray is switched off: Embree skips what ends before it begins.
       const bool usable = !std::isnan(ray.x());
@@ -197,7 +196,8 @@ class Renderer::Implementation {
   }
 
   std::vector<SceneObject> objects_;
-  RayTable rays_;
+  CameraModel camera_;
+  std::vector<Eigen::Vector2f> rays_;  ///< [-] as `cameraRays`
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
 };

@@ -124,19 +124,26 @@ CameraModel readCamera(const YAML::Node& node) {
   return camera;
 }
 
+SensorNoise readSensor(const YAML::Node& node) {
+  const auto name = read<std::string>(node, "sensor", "a sensor's name", std::string("kinect"));
+  try {
+    return SensorNoise::named(name);
+  } catch (const std::invalid_argument& error) {
+    fail(node["sensor"], error.what());
+  }
+}
+
 SensorNoise readNoise(const YAML::Node& node) {
   allowKeys(node, "noise",
-            {"axial", "noise_constant", "noise_quadratic", "quantise", "shadows", "correlated",
-             "correlation_length", "drop_out", "min_cosine", "range_min", "range_max"});
-  SensorNoise noise;
+            {"sensor", "axial", "noise_constant", "noise_quadratic", "smooth", "quantise",
+             "shadows", "drop_out", "min_cosine", "range_min", "range_max"});
+  SensorNoise noise = readSensor(node);
   noise.axial = read(node, "axial", "true or false", noise.axial);
   noise.model.constant = read(node, "noise_constant", "a number in m", noise.model.constant);
   noise.model.quadratic = read(node, "noise_quadratic", "a number in 1/m", noise.model.quadratic);
+  noise.smooth = read(node, "smooth", "true or false", noise.smooth);
   noise.quantise = read(node, "quantise", "true or false", noise.quantise);
   noise.shadows = read(node, "shadows", "true or false", noise.shadows);
-  noise.correlated = read(node, "correlated", "a number in 1/m", noise.correlated);
-  noise.correlation_length =
-      read(node, "correlation_length", "a number of px", noise.correlation_length);
   noise.drop_out = read(node, "drop_out", "a share of 0 to 1", noise.drop_out);
   noise.min_cosine = read(node, "min_cosine", "a number of 0 to 1", noise.min_cosine);
   noise.range_min = read(node, "range_min", "a number in m", noise.range_min);

@@ -26,6 +26,7 @@ struct Options {
   std::string output;
   double rate = 30.0;
   double duration = 0.0;
+  std::string sensor;
   bool no_noise = false;
   std::uint32_t seed = 0;
 };
@@ -41,13 +42,21 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--duration", options.duration, "[s] stop after this time; 0: the whole path")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  app.add_option("--sensor", options.sensor,
+                 "whose noise the readings have; otherwise that of the scene")
+      ->check(CLI::IsMember({"kinect", "realsense", "independent"}));
   app.add_flag("--no-noise", options.no_noise, "true depth in mm instead of a sensor's");
   app.add_option("--seed", options.seed, "of the noise")->capture_default_str();
 }
 
+SensorNoise noiseFor(const Scene& scene, const Options& options) {
+  if (options.no_noise) return SensorNoise::none();
+  return options.sensor.empty() ? scene.noise : SensorNoise::named(options.sensor);
+}
+
 int run(const Options& options) {
   const Scene scene = loadScene(options.scene);
-  const SensorNoise noise = options.no_noise ? SensorNoise::none() : scene.noise;
+  const SensorNoise noise = noiseFor(scene, options);
   const bool bag = options.output.size() > 4 &&
                    options.output.compare(options.output.size() - 4, 4, ".bag") == 0;
   const auto writer =

@@ -47,6 +47,7 @@ class VirtualDriver : public oni::driver::DriverBase {
       Plug plug;
       plug.uri = parseUri(uri, scenes_);
       plug.scene = loadScene(plug.uri.scene);
+      if (!plug.uri.sensor.empty()) plug.scene.noise = SensorNoise::named(plug.uri.sensor);
       if (!plug.uri.noise) plug.scene.noise = SensorNoise::none();
       plug.replug = plug.uri.replug;
       const std::lock_guard<std::mutex> lock(mutex_);

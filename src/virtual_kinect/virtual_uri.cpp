@@ -29,11 +29,14 @@ void setOption(VirtualUri& uri, const std::string& name, const std::string& valu
     *found->second = number(name, value);
   } else if (name == "serial") {
     uri.serial = value;
+  } else if (name == "sensor") {
+    uri.sensor = value;
   } else if (name == "noise") {
     uri.noise = number(name, value) != 0.0;
   } else {
-    throw std::invalid_argument("there is no option '" + name +
-                                "'; there are serial, noise, start, drift, unplug, replug, stall");
+    throw std::invalid_argument(
+        "there is no option '" + name +
+        "'; there are serial, sensor, noise, start, drift, unplug, replug, stall");
   }
 }
 

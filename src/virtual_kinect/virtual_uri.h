@@ -10,7 +10,8 @@ constexpr const char* kScheme = "virtual://";
 struct VirtualUri {
   std::string scene;            ///< file of the scene, absolute
   std::string serial = "VK00";  ///< serial number of the device
-  bool noise = true;            ///< the scene's sensor noise, or none
+  bool noise = true;            ///< the sensor's noise, or none
+  std::string sensor;           ///< a name that `SensorNoise::named` knows; empty: the scene's own
   double start = 0.0;           ///< [s] on the scene's camera path, at which it begins
   double drift = 0.0;           ///< [-] by which the device's clock is fast
   double unplug = -1.0;         ///< [s] after opening, < 0: never

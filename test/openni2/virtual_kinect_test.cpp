@@ -185,16 +185,20 @@ TEST_F(VirtualKinect, SaysWhatIsWrongWithAUri) {
             std::string::npos);
   EXPECT_NE(error("virtual://rubbish_bin?start=x").find("start: expected a number"),
             std::string::npos);
+  EXPECT_NE(error("virtual://rubbish_bin?sensor=sonar").find("there is no sensor 'sonar'"),
+            std::string::npos);
   EXPECT_NE(error("virtual:///no/such/scene.yaml").find("/no/such/scene.yaml"), std::string::npos);
 }
 
 TEST(VirtualUriTest, ParsesWhatUsersWrite) {
   const VirtualUri uri = virtual_kinect::parseUri(
-      "virtual:///a/b.yaml?serial=S1&noise=0&start=2.5&drift=75e-6&unplug=3&replug=1&stall=4",
+      "virtual:///a/"
+      "b.yaml?serial=S1&sensor=realsense&noise=0&start=2.5&drift=75e-6&unplug=3&replug=1&stall=4",
       "/s");
   EXPECT_EQ(uri.scene, "/a/b.yaml");
   EXPECT_EQ(uri.serial, "S1");
   EXPECT_FALSE(uri.noise);
+  EXPECT_EQ(uri.sensor, "realsense");
   EXPECT_EQ(uri.start, 2.5);
   EXPECT_EQ(uri.drift, 75e-6);
   EXPECT_EQ(uri.unplug, 3.0);

@@ -31,7 +31,7 @@ class MountService : public testing::Test {
 };
 
 TEST_F(MountService, GivesTheScenesMountWithoutAnyOtherListener) {
-  start("virtual://rubbish_bin?serial=M1");
+  start("virtual://rubbish_bin?serial=M1&sensor=independent");
   const auto mount = call(40);
   ASSERT_TRUE(mount.success) << mount.message;
   EXPECT_EQ(mount.frames, 40U);

@@ -110,6 +110,7 @@ TEST(SensorNoise, StandardDeviationIsTheModels) {
   const Rendering rendering = Renderer(wall).render(keyPose(0.0, 0.0).pose(), {});
   SensorNoise noise = SensorNoise::none();
   noise.axial = true;
+  noise.model = NoiseModel{};
   const auto readings = senseDepth(rendering, noise, 1);
   double sum = 0.0, sum_squares = 0.0;
   for (const std::uint16_t reading : readings) {
@@ -181,22 +182,49 @@ TEST(SensorNoise, RangeDropOutAndGrazingGapsLeaveNoReading) {
 }
 
 TEST(SensorNoise, SmoothErrorIsSmoothAndOfItsSize) {
-  const Rendering rendering = Renderer(bareFloor()).render(keyPose(1.0, 1.2).pose(), {});
+  // A wall at 2 m: every ray hits it at almost a right angle.
+  Scene wall;
+  wall.camera = kinectCamera();
+  addBox(wall, {0.1, 50.0, 50.0}, {2.05, 0.0, -25.0});
+  const Rendering rendering = Renderer(wall).render(keyPose(0.0, 0.0).pose(), {});
   SensorNoise noise = SensorNoise::none();
-  noise.correlated = 0.01;
-  const auto readings = senseDepth(rendering, noise, 4);
+  noise.smooth = true;
+  noise.octaves = {{16.0, 0.01, 0.0}, {16.0, 0.0, 0.02}};
   double sum_squares = 0.0, sum_steps = 0.0;
   double last = 0.0;
+  const auto readings = senseDepth(rendering, noise, 4);
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    const auto z = static_cast<double>(rendering.depth[i]);
-    const double error = (readings[i] / 1000.0 - z) / (z * z);
+    const double error = readings[i] / 1000.0 - 2.0;
     sum_squares += error * error;
     if (i % 640 != 0) sum_steps += std::pow(error - last, 2);
     last = error;
   }
+  // Two independent parts: 0.01 m, and 0.02 times 4 (a little more where the rays are slanted).
   const auto n = static_cast<double>(readings.size());
-  EXPECT_NEAR(std::sqrt(sum_squares / n), 0.01, 0.005);
-  EXPECT_LT(std::sqrt(sum_steps / n), 0.0012);
+  const double size = std::hypot(0.01, 0.08);
+  EXPECT_NEAR(std::sqrt(sum_squares / n) / size, 1.1, 0.15);
+  EXPECT_LT(std::sqrt(sum_steps / n) / size, 0.15);
+}
+
+TEST(SensorNoise, SmoothErrorGrowsWithSlant) {
+  // On the floor the error along the normal is quadratic * z^2 / cosine.
+  const Rendering rendering = Renderer(bareFloor()).render(keyPose(0.8, 0.4).pose(), {});
+  SensorNoise noise = SensorNoise::none();
+  noise.smooth = true;
+  noise.octaves = {{16.0, 0.0, 1e-3}};
+  noise.range_max = 20.0;
+  double sum_squares = 0.0, count = 0.0;
+  const auto readings = senseDepth(rendering, noise, 5);
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const auto z = static_cast<double>(rendering.depth[i]);
+    const auto cosine = static_cast<double>(rendering.cosine[i]);
+    if (z < 1.0 || z > 3.0) continue;
+    const double along_normal = (readings[i] / 1000.0 - z) * cosine;
+    sum_squares += std::pow(along_normal / (1e-3 * z * z / cosine), 2);
+    ++count;
+  }
+  EXPECT_GT(count, 100000.0);
+  EXPECT_NEAR(std::sqrt(sum_squares / count), 1.0, 0.15);
 }
 
 TEST(SensorNoise, SameNumberSameReadings) {

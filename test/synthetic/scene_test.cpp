@@ -59,7 +59,7 @@ TEST_F(SceneFile, EveryShapeAndSetting) {
   EXPECT_EQ(
       errorOf(std::string(kPath) +
               "camera: {width: 320, height: 240, fx: 290, fy: 290, cx: 159.5, cy: 119.5}\n"
-              "noise: {axial: false, noise_quadratic: 0.002, correlated: 0.001, drop_out: 0.1}\n"
+              "noise: {sensor: realsense, axial: false, noise_quadratic: 0.002, drop_out: 0.1}\n"
               "objects:\n"
               "  - {shape: floor, ground: true, size: [10, 8], tiles: 0.5}\n"
               "  - {shape: ramp, size: [1, 1, 0.2], position: [2, 0, 0], yaw: 0.3}\n"
@@ -75,6 +75,8 @@ TEST_F(SceneFile, EveryShapeAndSetting) {
   EXPECT_EQ(scene.objects[6].mesh.triangles.size(), 1U);
   EXPECT_EQ(scene.camera.width, 320);
   EXPECT_FALSE(scene.noise.axial);
+  EXPECT_TRUE(scene.noise.smooth);
+  EXPECT_FALSE(scene.noise.quantise);  // a RealSense's
   EXPECT_EQ(scene.noise.drop_out, 0.1);
 }
 
@@ -93,6 +95,7 @@ TEST_F(SceneFile, ErrorsNameFileLineAndKey) {
   expectError(path + "objects:\n  - {shape: cylinder, radius: wide, height: 1}\n", "line 3",
               "'radius'");
   expectError(path + "objects:\n  - {shape: mesh, file: nothing.obj}\n", "", "nothing.obj");
+  expectError(path + "noise: {sensor: sonar}\nobjects: [{shape: floor}]\n", "line 2", "'sonar'");
   expectError("objects: [{shape: floor}]\n", "line 1", "'path'");
   expectError(path, "line 1", "'objects'");
   expectError(path + "objects: [\n", "line", "");

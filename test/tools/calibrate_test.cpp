@@ -44,7 +44,8 @@ class Calibrate : public testing::Test {
   std::string wallAt(double distance, bool post = false) const {
     const std::string file = path("wall_" + std::to_string(distance) + ".yaml");
     std::ofstream(file) << "camera: {width: 640, height: 480, fx: 575.8, fy: 575.8, cx: 319.5, cy: "
-                           "239.5}\npath:\n  - {time: 0, position: [0, 0, 1]}\nobjects:\n"
+                           "239.5}\nnoise: {sensor: independent}\npath:\n  - {time: 0, position: "
+                           "[0, 0, 1]}\nobjects:\n"
                            "  - {shape: wall, size: [0.1, 10, 4], position: ["
                         << distance + 0.05 << ", 0, 0]}\n";
     if (post) {
@@ -204,7 +205,8 @@ TEST_F(Calibrate, WhatIsNoWallIsExplainedAndNotRecorded) {
 
 TEST_F(Calibrate, MountOfARecordedCamera) {
   ASSERT_EQ(run(std::string(DPD_RENDER_SCENE) +
-                " " DPD_SOURCE "/scenes/rubbish_bin.yaml --rate 10 --duration 2 --output " +
+                " " DPD_SOURCE
+                "/scenes/rubbish_bin.yaml --sensor independent --rate 10 --duration 2 --output " +
                 path("drive.bag"))
                 .status,
             0);

@@ -43,8 +43,10 @@ class DetectPlanes : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = fs::temp_directory_path() / ("detect_planes_test_" + std::to_string(getpid()));
     fs::create_directories(folder_);
-    const std::string render = std::string(DPD_RENDER_SCENE) + " " + DPD_SOURCE +
-                               "/scenes/rubbish_bin.yaml --rate 1 --duration 1 --output ";
+    const std::string render =
+        std::string(DPD_RENDER_SCENE) + " " + DPD_SOURCE +
+        "/scenes/rubbish_bin.yaml --sensor independent --rate 1 --duration 1 "
+        "--output ";
     ASSERT_EQ(run(render + (folder_ / "images").string()).status, 0);
     ASSERT_EQ(run(render + (folder_ / "drive.bag").string()).status, 0);
   }
@@ -104,7 +106,7 @@ TEST_F(DetectPlanes, Bag) {
 }
 
 TEST_F(DetectPlanes, OniRecording) {
-  recordOni("virtual://rubbish_bin?serial=TOOL", path("drive.oni"), 6);
+  recordOni("virtual://rubbish_bin?serial=TOOL&sensor=independent", path("drive.oni"), 6);
   const Outcome outcome = detect(path("drive.oni"));
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   const auto rows = planes();
