@@ -19,13 +19,16 @@ struct ReferenceImage {
   double height = 0.0;                           ///< [m] camera over the plane
 };
 
-/// A folder of depth images, masks and planes (depth/, mask/, reference.csv).
+/// Depth images with masks and planes: a folder of them (depth/, mask/, reference.csv), or scenes.
 struct ReferenceSet {
   std::string name;
   CameraModel camera;
   float metres_per_unit = 0.001F;  ///< [m]
   double range_min = 0.5;          ///< [m] working range
   double range_max = 4.0;          ///< [m]
+  /// Whether the planes are the truth itself. Those of recordings are least-squares fits to the
+  /// same readings, as the detector's are: with them it can agree, and share their error.
+  bool exact = false;
   std::vector<ReferenceImage> images;
 
   DepthView view(const ReferenceImage& image) const;

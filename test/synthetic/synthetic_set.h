@@ -33,6 +33,7 @@ inline ReferenceSet loadRandomScenes(std::uint32_t count, const SensorNoise& noi
   ReferenceSet set;
   set.name = name;
   set.camera = kinectCamera();
+  set.exact = true;
   for (std::uint32_t seed = 1; seed <= count; ++seed) {
     set.images.push_back(senseScene(randomScene(seed), noise, seed));
   }
