@@ -31,7 +31,9 @@ TEST_P(ShippedScene, ShowsTheFloorAllTheWay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene,
-                         testing::Values("rubbish_bin.yaml", "laboratory.yaml"));
+                         testing::Values("rubbish_bin.yaml", "laboratory.yaml", "plate.yaml",
+                                         "kerb.yaml", "ramp.yaml", "two_levels.yaml",
+                                         "door_sill.yaml", "table.yaml"));
 
 class SceneFile : public testing::Test {
  protected:
