@@ -63,7 +63,8 @@ HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, std::u
   hn::StoreU(hn::DemoteTo(bytes, label), bytes, labels);
   const auto ground = hn::IfThenElseZero(in_band, hn::Set(d, static_cast<float>(near_ground)));
   sums.ground = hn::Add(sums.ground, ground);
-  sums.square_height = hn::MulAdd(hn::Mul(ground, height), height, sums.square_height);
+  const auto counted = hn::IfThenElseZero(in_band, height);  // without a reading it is not a number
+  sums.square_height = hn::MulAdd(hn::Mul(ground, counted), counted, sums.square_height);
 }
 
 template <bool kSeparable, typename Pixel>

@@ -15,7 +15,8 @@ namespace dominant_plane_detection {
 constexpr int kTileSize = 8;
 
 /// Moments of the points in each image tile, row-major, one flat array per number, filled up with
-/// zeros to whole vectors. Tiles at the right and lower border may be partly outside the image.
+/// zeros to whole vectors and one more, so that a row can be read in whole vectors as well. Tiles
+/// at the right and lower border may be partly outside the image.
 struct TileMoments {
   int columns = 0;                            ///< [#]
   int rows = 0;                               ///< [#]
