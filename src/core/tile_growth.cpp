@@ -1,15 +1,22 @@
 #include "core/tile_growth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "core/tile_neighbours.h"
+#include <cstring>
 
 namespace dominant_plane_detection {
 namespace {
 
 /// The plane is fitted again whenever the region has grown by this factor.
 constexpr double kRefitGrowth = 1.5;
+
+/// @return from a place of a row-major grid to its eight neighbours, row by row; numbers wrap
+/// round.
+std::array<std::size_t, 8> stepsToNeighbours(std::size_t columns) {
+  return {0 - columns - 1, 0 - columns, 0 - columns + 1, std::size_t{0} - 1, 1,
+          columns - 1,     columns,     columns + 1};
+}
 
 }  // namespace
 
@@ -19,95 +26,129 @@ void TileGrowth::start(const TileMoments& tiles, double tile_angle) {
   tile_angle_ = static_cast<float>(tile_angle);
   region_.tiles.clear();
   region_.member.assign(tiles.count.size(), 0);
+  // Eight more, to be read eight at a time.
+  open_.assign(static_cast<std::size_t>(columns_ + 2) * static_cast<std::size_t>(rows_ + 2) + 8, 0);
+  looked_.resize(static_cast<std::size_t>(rows_));
 }
 
 void TileGrowth::clear() {
   for (const std::size_t tile : region_.tiles) region_.member[tile] = 0;
   region_.tiles.clear();
   region_.points = 0;
-  box_ = {columns_, rows_, -1, -1};
-  reach_ = 0;
+  places_.clear();
+  std::fill(looked_.begin(), looked_.end(), std::uint8_t{0});
   moments_ = PlaneMoments();
   sum_epsilon2_ = sum_square_ = fitted_count_ = 0.0;
   fits_ = tests_ = 0;
 }
 
-void TileGrowth::join(const TileJudge& judge, std::size_t tile, Mode mode) {
-  const TileMoments& tiles = judge.tiles();
+TileGrowth::Place TileGrowth::placeOf(std::size_t tile) const {
+  const auto columns = static_cast<std::size_t>(columns_);
+  return {tile, tile + 2 * (tile / columns) + columns + 3};
+}
+
+/// Finds out which tiles of the rows [first, last], as far as the image has them, may join.
+void TileGrowth::look(const Call& call, int first_row, int last_row) {
+  const TileVerdict least =
+      call.mode == Mode::kSurround ? TileVerdict::kTouches : TileVerdict::kOnPlane;
+  const int last = std::min(last_row, rows_ - 1);
+  for (int row = std::max(first_row, 0); row <= last; ++row) {
+    if (looked_[static_cast<std::size_t>(row)]) continue;
+    looked_[static_cast<std::size_t>(row)] = 1;
+    call.judge.judgeRows(row, row);
+    const auto columns = static_cast<std::size_t>(columns_);
+    const std::size_t first = static_cast<std::size_t>(row) * columns;
+    // The compiler is told that these do not overlap, as bytes might: it then takes many at once.
+    const TileVerdict* __restrict verdict = call.judge.verdicts() + first;
+    const std::uint8_t* __restrict taken = call.taken.data() + first;
+    const std::uint8_t* __restrict member = region_.member.data() + first;
+    std::uint8_t* __restrict open = &open_[placeOf(first).open];
+    for (std::size_t i = 0; i < columns; ++i) {
+      open[i] =
+          static_cast<std::uint8_t>((verdict[i] >= least) & (taken[i] == 0) & (member[i] == 0));
+    }
+  }
+}
+
+void TileGrowth::join(const Call& call, const Place& place) {
+  const TileMoments& tiles = call.judge.tiles();
+  const std::size_t tile = place.tile;
   const double count = static_cast<double>(tiles.count[tile]);
   region_.member[tile] = 1;
   region_.tiles.push_back(tile);
   region_.points += static_cast<std::size_t>(count);
-  sum_epsilon2_ += count * static_cast<double>(judge.limits().epsilon2[tile]);
-  const int column = static_cast<int>(tile) % columns_, row = static_cast<int>(tile) / columns_;
-  box_ = {std::min(box_.left, column), std::min(box_.top, row), std::max(box_.right, column),
-          std::max(box_.bottom, row)};
-  reach_ = std::max(reach_, reach(judge, tile));
-  if (mode == Mode::kGrow) moments_.add(count, tiles.centre(tile), tiles.scatter(tile));
+  places_.push_back(place.open);
+  open_[place.open] = 0;
+  sum_epsilon2_ += count * static_cast<double>(call.judge.limits().epsilon2[tile]);
+  if (call.mode == Mode::kGrow) moments_.add(count, tiles.centre(tile), tiles.scatter(tile));
 }
 
-bool TileGrowth::mayJoin(const TileJudge& judge, std::size_t tile, Mode mode,
-                         const std::vector<std::uint8_t>& taken) const {
-  const TileVerdict least = mode == Mode::kSurround ? TileVerdict::kTouches : TileVerdict::kOnPlane;
-  return judge.verdict(tile) >= least && !region_.member[tile] && !taken[tile];
-}
-
-void TileGrowth::tryToJoin(const TileJudge& judge, std::size_t tile, std::size_t from, Mode mode,
-                           const std::vector<std::uint8_t>& taken) {
-  if (!mayJoin(judge, tile, mode, taken)) return;
+void TileGrowth::tryToJoin(const Call& call, const Place& place, std::size_t from) {
   ++tests_;
-  const TileMoments& tiles = judge.tiles();
-  if (!closerThanDelta(tiles, judge.limits(), tile, from)) return;
-  const double count = static_cast<double>(tiles.count[tile]);
-  const double sum_square = sum_square_ + count * static_cast<double>(judge.meanSquare(tile));
+  const TileMoments& tiles = call.judge.tiles();
+  const TileLimits& limits = call.judge.limits();
+  if (!closerThanDelta(tiles, limits, place.tile, from)) return;
+  const double count = static_cast<double>(tiles.count[place.tile]);
+  const double sum_square =
+      sum_square_ + count * static_cast<double>(call.judge.meanSquare(place.tile));
   const double sum_epsilon2 =
-      sum_epsilon2_ + count * static_cast<double>(judge.limits().epsilon2[tile]);
-  if (mode != Mode::kSurround && sum_square >= sum_epsilon2) return;
+      sum_epsilon2_ + count * static_cast<double>(limits.epsilon2[place.tile]);
+  if (call.mode != Mode::kSurround && sum_square >= sum_epsilon2) return;
   sum_square_ = sum_square;
-  join(judge, tile, mode);
+  join(call, place);
 }
 
 const TileRegion& TileGrowth::grow(TileJudge& judge, const TileSeed& seed,
                                    const std::vector<std::uint8_t>& taken) {
+  const Call call{judge, taken, Mode::kGrow};
   clear();
-  for (std::size_t i = 0; i < seed.count; ++i) join(judge, seed.tiles[i], Mode::kGrow);
+  for (std::size_t i = 0; i < seed.count; ++i) join(call, placeOf(seed.tiles[i]));
   refit(judge);
-  spread(judge, Mode::kGrow, taken);
+  spread(call);
   refit(judge);
   return region_;
 }
 
 const TileRegion& TileGrowth::collect(TileJudge& judge, std::size_t first,
                                       const std::vector<std::uint8_t>& taken) {
+  const Call call{judge, taken, Mode::kCollect};
   clear();
-  join(judge, first, Mode::kCollect);
+  join(call, placeOf(first));
   sum_square_ = static_cast<double>(judge.tiles().count[first]) *
                 static_cast<double>(judge.meanSquare(first));
-  spread(judge, Mode::kCollect, taken);
+  spread(call);
   return region_;
 }
 
 const TileRegion& TileGrowth::surround(TileJudge& judge, const std::vector<std::size_t>& tiles,
                                        const std::vector<std::uint8_t>& taken) {
+  const Call call{judge, taken, Mode::kSurround};
   clear();
-  for (const std::size_t tile : tiles) join(judge, tile, Mode::kSurround);
-  spread(judge, Mode::kSurround, taken);
+  for (const std::size_t tile : tiles) join(call, placeOf(tile));
+  spread(call);
   return region_;
 }
 
 /// First come, first served: rings about the seed, as good as "nearest first" on a grid.
-void TileGrowth::spread(TileJudge& judge, Mode mode, const std::vector<std::uint8_t>& taken) {
+void TileGrowth::spread(const Call& call) {
+  const auto columns = static_cast<std::size_t>(columns_);
+  const std::array<std::size_t, 8> tile_steps = stepsToNeighbours(columns);
+  const std::array<std::size_t, 8> open_steps = stepsToNeighbours(columns + 2);
   std::size_t next = 0;
   do {
     for (; next < region_.tiles.size(); ++next) {
-      const std::size_t from = region_.tiles[next];
-      const int row = static_cast<int>(from) / columns_;
-      judge.judgeRows(row - 1, row + 1);
-      forEachNeighbour(from, columns_, rows_,
-                       [&](std::size_t tile) { tryToJoin(judge, tile, from, mode, taken); });
-      if (mode == Mode::kGrow && moments_.count() > kRefitGrowth * fitted_count_) refit(judge);
+      const std::size_t from = region_.tiles[next], open = places_[next];
+      const int row = static_cast<int>(open / (columns + 2)) - 1;
+      look(call, row - 1, row + 1);
+      for (std::size_t k = 0; k < tile_steps.size(); ++k) {
+        const Place place{from + tile_steps[k], open + open_steps[k]};
+        if (open_[place.open]) tryToJoin(call, place, from);
+      }
+      if (call.mode == Mode::kGrow && moments_.count() > kRefitGrowth * fitted_count_) {
+        refit(call.judge);
+      }
     }
-  } while (bridgeGaps(judge, mode, taken));
+  } while (bridgeGaps(call));
 }
 
 /// @return [tile] how far away in the image a tile within delta can be.
@@ -118,14 +159,14 @@ int TileGrowth::reach(const TileJudge& judge, std::size_t tile) const {
   return 1 + static_cast<int>(std::min(tiles, static_cast<float>(std::max(columns_, rows_))));
 }
 
-/// @return a tile of the region within delta of a tile, or `tile` itself if there is none.
-std::size_t TileGrowth::closeMember(const TileJudge& judge, std::size_t tile) const {
-  const int column = static_cast<int>(tile) % columns_, row = static_cast<int>(tile) / columns_;
+/// @return a tile of the region within delta of a tile, or that tile itself if there is none.
+std::size_t TileGrowth::closeMember(const TileJudge& judge, int column, int row) const {
+  const auto tile = static_cast<std::size_t>(row * columns_ + column);
   const int radius = reach(judge, tile);
-  const int right = std::min(column + radius, box_.right);
-  const int bottom = std::min(row + radius, box_.bottom);
-  for (int r = std::max(row - radius, box_.top); r <= bottom; ++r) {
-    for (int c = std::max(column - radius, box_.left); c <= right; ++c) {
+  const int right = std::min(column + radius, columns_ - 1);
+  const int bottom = std::min(row + radius, rows_ - 1);
+  for (int r = std::max(row - radius, 0); r <= bottom; ++r) {
+    for (int c = std::max(column - radius, 0); c <= right; ++c) {
       const auto other = static_cast<std::size_t>(r * columns_ + c);
       if (region_.member[other] && closerThanDelta(judge.tiles(), judge.limits(), tile, other)) {
         return other;
@@ -138,24 +179,27 @@ std::size_t TileGrowth::closeMember(const TileJudge& judge, std::size_t tile) co
 /// Joins tiles that have no neighbour in the region, but come closer to it than delta: across what
 /// has no reading, or stands before the plane. Only the rims of what is left need to be looked at.
 /// @return whether there were any.
-bool TileGrowth::bridgeGaps(TileJudge& judge, Mode mode, const std::vector<std::uint8_t>& taken) {
+bool TileGrowth::bridgeGaps(const Call& call) {
+  look(call, 0, rows_ - 1);
   const std::size_t before = region_.tiles.size();
-  const auto left = [&](std::size_t tile) { return mayJoin(judge, tile, mode, taken); };
-  const Box around{std::max(box_.left - reach_, 0), std::max(box_.top - reach_, 0),
-                   std::min(box_.right + reach_, columns_ - 1),
-                   std::min(box_.bottom + reach_, rows_ - 1)};
-  judge.judgeRows(around.top - 1, around.bottom + 1);
-  for (int row = around.top; row <= around.bottom; ++row) {
-    for (int column = around.left; column <= around.right; ++column) {
-      const auto tile = static_cast<std::size_t>(row * columns_ + column);
-      if (!left(tile)) continue;
-      int neighbours = 0;
-      forEachNeighbour(tile, columns_, rows_,
-                       [&](std::size_t other) { neighbours += left(other); });
-      if (neighbours == 8) continue;
-      const std::size_t from = closeMember(judge, tile);
-      if (from != tile) tryToJoin(judge, tile, from, mode, taken);
+  const auto columns = static_cast<std::size_t>(columns_);
+  const auto steps = stepsToNeighbours(columns + 2);
+  for (std::size_t open = columns + 3; open + columns + 3 + 8 < open_.size(); ++open) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, &open_[open], sizeof(eight));
+    if (eight == 0) {  // most of them
+      open += sizeof(eight) - 1;
+      continue;
     }
+    if (!open_[open]) continue;
+    const bool inside = std::all_of(steps.begin(), steps.end(),
+                                    [&](std::size_t step) { return open_[open + step] != 0; });
+    if (inside) continue;
+    const std::size_t row = open / (columns + 2) - 1, column = open % (columns + 2) - 1;
+    const Place place{row * columns + column, open};
+    const std::size_t from =
+        closeMember(call.judge, static_cast<int>(column), static_cast<int>(row));
+    if (from != place.tile) tryToJoin(call, place, from);
   }
   return region_.tiles.size() > before;
 }
@@ -168,6 +212,7 @@ void TileGrowth::refit(TileJudge& judge) {
   fitted_count_ = moments_.count();
   sum_square_ = fit->mean_square_error * fitted_count_;
   judge.setPlane(region_.plane, judge.tiles().centre(region_.tiles.front()));
+  std::fill(looked_.begin(), looked_.end(), std::uint8_t{0});
 }
 
 }  // namespace dominant_plane_detection

@@ -61,19 +61,27 @@ class TileGrowth {
     kCollect,   ///< the same, the plane stays
     kSurround,  ///< tiles that touch the plane
   };
-  struct Box {  ///< of tiles, its ends included
-    int left, top, right, bottom;
+
+  /// What the present call looks at.
+  struct Call {
+    TileJudge& judge;
+    const std::vector<std::uint8_t>& taken;
+    Mode mode;
+  };
+  /// A tile and its place in `open_`.
+  struct Place {
+    std::size_t tile;
+    std::size_t open;
   };
 
   void clear();
-  void join(const TileJudge& judge, std::size_t tile, Mode mode);
-  bool mayJoin(const TileJudge& judge, std::size_t tile, Mode mode,
-               const std::vector<std::uint8_t>& taken) const;
-  void tryToJoin(const TileJudge& judge, std::size_t tile, std::size_t from, Mode mode,
-                 const std::vector<std::uint8_t>& taken);
-  void spread(TileJudge& judge, Mode mode, const std::vector<std::uint8_t>& taken);
-  bool bridgeGaps(TileJudge& judge, Mode mode, const std::vector<std::uint8_t>& taken);
-  std::size_t closeMember(const TileJudge& judge, std::size_t tile) const;
+  Place placeOf(std::size_t tile) const;
+  void look(const Call& call, int first_row, int last_row);
+  void join(const Call& call, const Place& place);
+  void tryToJoin(const Call& call, const Place& place, std::size_t from);
+  void spread(const Call& call);
+  bool bridgeGaps(const Call& call);
+  std::size_t closeMember(const TileJudge& judge, int column, int row) const;
   int reach(const TileJudge& judge, std::size_t tile) const;
   void refit(TileJudge& judge);
 
@@ -81,8 +89,11 @@ class TileGrowth {
   int rows_ = 0;
   float tile_angle_ = 0.0F;
   TileRegion region_;
-  Box box_{};      ///< of the region
-  int reach_ = 0;  ///< [tile] how far from it in the image a tile within delta can be
+  std::vector<std::size_t> places_;  ///< of the region's tiles in `open_`
+  /// 1 for tiles that may join; with a margin of one tile on each side of the image, so that a
+  /// neighbour needs no look at where the image ends.
+  std::vector<std::uint8_t> open_;
+  std::vector<std::uint8_t> looked_;  ///< 1 for each row of tiles that `open_` is right about
   PlaneMoments moments_;
   double fitted_count_ = 0.0;  ///< [px] in the region at the last fit
   double sum_epsilon2_ = 0.0;  ///< [m^2] over the region's points

@@ -23,6 +23,7 @@ class TileJudge {
 
   /// @pre the tile's row was judged.
   TileVerdict verdict(std::size_t tile) const { return verdicts_.verdict[tile]; }
+  const TileVerdict* verdicts() const { return verdicts_.verdict.data(); }
   bool onPlane(std::size_t tile) const { return verdict(tile) == TileVerdict::kOnPlane; }
   /// @return [m] mean height over the plane; negative on the camera's side.
   float height(std::size_t tile) const { return verdicts_.height[tile]; }
