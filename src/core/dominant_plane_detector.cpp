@@ -122,7 +122,8 @@ class DominantPlaneDetector::Implementation {
       return;
     }
     kdtree_.run(input, parameters_, selection, detection_.effort);
-    if (selection.found()) grid_.collectGround(image, parameters_, selection.plane());
+    if (!selection.found()) return;
+    grid_.collectGround(image, parameters_, selection.plane(), kdtree_.regionTiles());
   }
 
   /// @return [px] smallest piece of ground in an image of this size.

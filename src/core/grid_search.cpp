@@ -1,6 +1,7 @@
 #include "core/grid_search.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace dominant_plane_detection {
 namespace {
@@ -30,7 +31,8 @@ void GridSearch::start(const Image& image, const Parameters& parameters) {
   piece_limits_ = {parameters.join_pieces, image.min_piece};
   limits_.set(*tiles_, growthThresholds(parameters));
   judge_.start(*tiles_, limits_);
-  collect_.start(*tiles_, tileAngle(image.camera));
+  region_.tiles.clear();
+  region_.member.assign(tiles_->count.size(), 0);
   ground_tiles_.start(*tiles_, tileAngle(image.camera));
   taken_.assign(tiles_->count.size(), 0);
 }
@@ -49,17 +51,9 @@ void GridSearch::search(const Parameters& parameters, Seeds seeds) {
 }
 
 void GridSearch::collectGround(const Image& image, const Parameters& parameters,
-                               const HessePlane& plane) {
+                               const HessePlane& plane, const std::vector<std::size_t>& region) {
   start(image, parameters);
-  judge_.setPlane(plane, plane.distance * plane.normal);
-  judge_.judgeAll();
-  region_.tiles.clear();
-  region_.points = 0;
-  seen_ = taken_;
-  for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
-    if (judge_.onPlane(tile) && !seen_[tile]) collectPart(tile);
-  }
-  ground_tiles_.collect(judge_, plane, region_.tiles, taken_, piece_limits_);
+  collectSurface({plane, std::numeric_limits<float>::infinity(), 0}, region);
   ground_ = ground_tiles_.ground();
 }
 
@@ -92,21 +86,15 @@ bool GridSearch::tryRegion(std::size_t tile) {
   return true;
 }
 
-/// Fits the plane to the one surface in what was grown, and decides again what belongs to it.
+/// Looks for the one surface in what was grown, and decides again what belongs to it.
 void GridSearch::finishRegion(const TileRegion& grown) {
-  const std::optional<RefinedPlane> mode = refinePlane(judge_, grown);
-  if (!mode) return;
-  judge_.setPlane(mode->plane, tiles_->centre(grown.tiles.front()), mode->level);
-  collectLargest(grown);
-  if (region_.tiles.empty()) return;
-  const std::optional<RefinedPlane> refined = fitPlane(judge_, region_, mode->plane, mode->level);
-  if (!refined) return;
-  effort_->fits += mode->fits + refined->fits;
-  region_.plane = refined->plane;
-  judge_.setPlane(region_.plane, tiles_->centre(region_.tiles.front()), mode->level);
-  if (!check_.isSurface(judge_, region_)) return;
-  ground_tiles_.collect(judge_, region_.plane, region_.tiles, taken_, piece_limits_);
-  joinPieces(mode->level);
+  const std::optional<SurfacePlane> surface = findSurface(judge_, grown);
+  if (!surface || !collectSurface(*surface, grown.tiles)) return;
+  const std::optional<SurfacePlane> fit = fitPlane(judge_, region_, surface->plane, surface->level);
+  if (!fit || !check_.isSurface(judge_, region_)) return;
+  effort_->fits += surface->fits + fit->fits;
+  region_.plane = fit->plane;
+  joinPieces(surface->level);
   effort_->joined += region_.tiles.size();
   const std::size_t best = selection_->points();
   const State verdict = selection_->consider(region_.plane, region_.points);
@@ -116,46 +104,32 @@ void GridSearch::finishRegion(const TileRegion& grown) {
   if (selection_->points() > best) ground_ = ground_tiles_.ground();
 }
 
+/// The region becomes the tiles of what was grown that lie on the plane, and what hangs together
+/// with them on it.
+/// @return whether there are any.
+bool GridSearch::collectSurface(const SurfacePlane& surface,
+                                const std::vector<std::size_t>& grown) {
+  region_.clear();
+  region_.plane = surface.plane;
+  judge_.setPlane(surface.plane, surface.plane.distance * surface.plane.normal, surface.level);
+  judge_.judgeAll();
+  for (const std::size_t tile : grown) {
+    if (judge_.onPlane(tile)) region_.add(tile, *tiles_);
+  }
+  if (region_.tiles.empty()) return false;
+  ground_tiles_.collect(judge_, region_, taken_, piece_limits_);
+  return true;
+}
+
+/// Pieces beyond a gap say more about the plane than the region alone, and the plane more about
+/// what is ground.
 void GridSearch::joinPieces(float level) {
   if (ground_tiles_.pieces().empty()) return;
-  for (const std::size_t tile : ground_tiles_.pieces()) {
-    region_.tiles.push_back(tile);
-    region_.member[tile] = 1;
-  }
-  region_.points += ground_tiles_.piecePoints();
-  const std::optional<RefinedPlane> joint = fitPlane(judge_, region_, region_.plane, level);
+  for (const std::size_t tile : ground_tiles_.pieces()) region_.add(tile, *tiles_);
+  const std::optional<SurfacePlane> joint = fitPlane(judge_, region_, region_.plane, level);
   if (!joint) return;
-  region_.plane = joint->plane;
-  judge_.setPlane(region_.plane, tiles_->centre(region_.tiles.front()), level);
-  ground_tiles_.collect(judge_, region_.plane, region_.tiles, taken_, piece_limits_);
-}
-
-/// The largest part of a region that hangs together on the judge's plane.
-void GridSearch::collectLargest(const TileRegion& grown) {
-  region_.tiles.clear();
-  region_.points = 0;
-  std::size_t left = grown.points;
-  seen_ = taken_;
-  for (const std::size_t tile : grown.tiles) {
-    if (left <= region_.points) return;
-    judge_.judgeRows(static_cast<int>(tile) / tiles_->columns,
-                     static_cast<int>(tile) / tiles_->columns);
-    if (seen_[tile]) continue;
-    if (!judge_.onPlane(tile)) {
-      left -= static_cast<std::size_t>(tiles_->count[tile]);
-      continue;
-    }
-    left -= std::min(left, collectPart(tile));
-  }
-}
-
-/// Keeps what hangs together with a tile on the judge's plane if it is the largest so far.
-/// @return [px] its points.
-std::size_t GridSearch::collectPart(std::size_t tile) {
-  const TileRegion& part = collect_.collect(judge_, tile, seen_);
-  for (const std::size_t t : part.tiles) seen_[t] = 1;
-  if (part.points > region_.points) region_ = part;
-  return part.points;
+  joint_tiles_ = region_.tiles;
+  collectSurface({joint->plane, level, 0}, joint_tiles_);
 }
 
 }  // namespace dominant_plane_detection

@@ -31,9 +31,10 @@ class GridSearch : private RegionSource {
   void run(const Image& image, const Parameters& parameters, PlaneSelection& selection,
            Effort& effort);
 
-  /// Collects the tiles of a plane that was found otherwise: all pieces that would join a region of
-  /// it, or the largest of them alone.
-  void collectGround(const Image& image, const Parameters& parameters, const HessePlane& plane);
+  /// Collects the ground of a region that was found otherwise.
+  /// @param region tiles with points of it, each once.
+  void collectGround(const Image& image, const Parameters& parameters, const HessePlane& plane,
+                     const std::vector<std::size_t>& region);
 
   /// @return 1 for the tiles of the selected plane's region, padded like the moments.
   /// @pre the last `run` found a plane, or `collectGround` was called.
@@ -53,17 +54,16 @@ class GridSearch : private RegionSource {
   std::size_t availablePoints() const override { return available_points_; }
   bool tryRegion(std::size_t tile) override;
   void finishRegion(const TileRegion& grown);
+  bool collectSurface(const SurfacePlane& surface, const std::vector<std::size_t>& grown);
   void joinPieces(float level);
-  void collectLargest(const TileRegion& grown);
-  std::size_t collectPart(std::size_t tile);
   void take(std::size_t tile);
 
   const TileMoments* tiles_ = nullptr;
   TileLimits limits_;
   TileJudge judge_;
-  TileGrowth growth_;   ///< of the region that a seed gives
-  TileGrowth collect_;  ///< of what it is on its final plane
-  TileRegion region_;
+  TileGrowth growth_;
+  TileRegion region_;                     ///< what was grown, decided again
+  std::vector<std::size_t> joint_tiles_;  ///< of region and pieces
   SurfaceCheck check_;
   GroundTiles ground_tiles_;
   SeedOrder order_;
@@ -71,7 +71,6 @@ class GridSearch : private RegionSource {
   GroundTiles::Limits piece_limits_{};
   std::vector<std::uint8_t> taken_;   ///< 1 for tiles of regions: they neither seed nor join
   std::vector<std::uint8_t> seeded_;  ///< 1 for tiles that were seeds
-  std::vector<std::uint8_t> seen_;    ///< 1 for tiles taken or collected
   std::size_t available_points_ = 0;  ///< [px] in tiles that are not taken
   std::vector<std::uint8_t> ground_;
   Seeds seeds_ = Seeds::kPromising;

@@ -42,17 +42,16 @@ bool hasSamePlane(const TileJudge& judge, const TileRegion& piece, const HessePl
 
 }  // namespace
 
-void GroundTiles::collect(TileJudge& judge, const HessePlane& plane,
-                          const std::vector<std::size_t>& region,
+void GroundTiles::collect(TileJudge& judge, TileRegion& region,
                           const std::vector<std::uint8_t>& taken, const Limits& limits) {
   judge.judgeAll();
   const std::size_t size = judge.tiles().size();
   ground_.assign(judge.tiles().count.size(), 0);
   pieces_.clear();
-  piece_points_ = 0;
   seen_ = taken;
-  for (const std::size_t tile : growth_.surround(judge, region, seen_).tiles) {
+  for (const std::size_t tile : growth_.surround(judge, region.tiles, seen_).tiles) {
     ground_[tile] = seen_[tile] = 1;
+    if (judge.onPlane(tile) && !region.member[tile]) region.add(tile, judge.tiles());
   }
   if (!limits.join_pieces) return;
   for (std::size_t tile = 0; tile < size; ++tile) {
@@ -61,14 +60,12 @@ void GroundTiles::collect(TileJudge& judge, const HessePlane& plane,
     const TileRegion& piece = growth_.surround(judge, beginning_, seen_);
     for (const std::size_t t : piece.tiles) seen_[t] = 1;
     if (piece.points < limits.min_piece || !hasSeed(judge, piece) ||
-        !hasSamePlane(judge, piece, plane)) {
+        !hasSamePlane(judge, piece, region.plane)) {
       continue;
     }
     for (const std::size_t t : piece.tiles) {
       ground_[t] = 1;
-      if (!judge.onPlane(t)) continue;
-      pieces_.push_back(t);
-      piece_points_ += static_cast<std::size_t>(judge.tiles().count[t]);
+      if (judge.onPlane(t)) pieces_.push_back(t);
     }
   }
 }

@@ -29,17 +29,16 @@ class GroundTiles {
   void start(const TileMoments& tiles, double tile_angle) { growth_.start(tiles, tile_angle); }
 
   /// @param judge with the region's plane.
-  /// @param region its tiles.
-  /// @param taken 1 for tiles of other regions, which join neither.
-  void collect(TileJudge& judge, const HessePlane& plane, const std::vector<std::size_t>& region,
-               const std::vector<std::uint8_t>& taken, const Limits& limits);
+  /// @param region tiles of it that lie on the plane; what else lies on it and hangs together with
+  /// them is added.
+  /// @param taken 1 for tiles of other regions, which do not join.
+  void collect(TileJudge& judge, TileRegion& region, const std::vector<std::uint8_t>& taken,
+               const Limits& limits);
 
   /// @return 1 for the tiles of region, rim and pieces, padded like the moments.
   const std::vector<std::uint8_t>& ground() const { return ground_; }
-  /// @return the tiles on the plane in the pieces that joined.
+  /// @return the tiles on the plane in the pieces that join.
   const std::vector<std::size_t>& pieces() const { return pieces_; }
-  /// @return [px] points in these.
-  std::size_t piecePoints() const { return piece_points_; }
 
  private:
   TileGrowth growth_;
@@ -47,7 +46,6 @@ class GroundTiles {
   std::vector<std::uint8_t> seen_;      ///< 1 for tiles that were looked at, or are taken
   std::vector<std::size_t> beginning_;  ///< of what hangs together
   std::vector<std::size_t> pieces_;
-  std::size_t piece_points_ = 0;
 };
 
 }  // namespace dominant_plane_detection

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/tile_moments.h"
+
 namespace dominant_plane_detection {
 namespace {
 
@@ -15,7 +17,10 @@ constexpr int kSeedWindow = 8;
 void KdtreeSearch::collectPoints(const ImageInput& input, int subsampling) {
   columns_ = (input.depth.width + subsampling - 1) / subsampling;
   rows_ = (input.depth.height + subsampling - 1) / subsampling;
+  image_width_ = input.depth.width;
+  subsampling_ = subsampling;
   points_.clear();
+  pixel_of_.clear();
   point_of_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), -1);
   for (std::size_t pixel = 0; pixel < point_of_.size(); ++pixel) {
     const int u = static_cast<int>(pixel) % columns_ * subsampling;
@@ -24,6 +29,7 @@ void KdtreeSearch::collectPoints(const ImageInput& input, int subsampling) {
     const Eigen::Vector3f ray = input.rays.ray(u, v);
     if (!(z >= input.range.min && z <= input.range.max) || std::isnan(ray.x())) continue;
     point_of_[pixel] = static_cast<std::ptrdiff_t>(points_.size());
+    pixel_of_.push_back(pixel);
     points_.push_back((z * ray).cast<double>());
   }
 }
@@ -77,8 +83,24 @@ bool KdtreeSearch::tryRegion(std::size_t cell) {
   if (!given_up) ++effort_->regions;
   effort_->joined += region.sequence.size();
   const auto fit = region.moments.fit();
+  const std::size_t best = selection_->points();
   if (fit) selection_->consider(fit->plane, region.sequence.size() * pixels_per_point_);
+  if (selection_->points() > best) region_ = region.sequence;
   return true;
+}
+
+std::vector<std::size_t> KdtreeSearch::regionTiles() const {
+  const auto tile_columns = static_cast<std::size_t>((image_width_ + kTileSize - 1) / kTileSize);
+  std::vector<std::size_t> tiles;
+  for (const std::size_t point : region_) {
+    const auto pixel = static_cast<int>(pixel_of_[point]);
+    const int u = pixel % columns_ * subsampling_, v = pixel / columns_ * subsampling_;
+    tiles.push_back(static_cast<std::size_t>(v / kTileSize) * tile_columns +
+                    static_cast<std::size_t>(u / kTileSize));
+  }
+  std::sort(tiles.begin(), tiles.end());
+  tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
+  return tiles;
 }
 
 void KdtreeSearch::run(const ImageInput& input, const Parameters& parameters,

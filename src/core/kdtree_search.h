@@ -27,6 +27,10 @@ class KdtreeSearch : private RegionSource {
   void run(const ImageInput& input, const Parameters& parameters, PlaneSelection& selection,
            Effort& effort);
 
+  /// @return the tiles with points of the selected plane's region, each once.
+  /// @pre the last `run` found a plane.
+  std::vector<std::size_t> regionTiles() const;
+
  private:
   bool available(std::size_t cell) const override;
   std::size_t availablePoints() const override;
@@ -45,6 +49,10 @@ class KdtreeSearch : private RegionSource {
   int columns_ = 0;                       ///< [#] of the subsampled image
   int rows_ = 0;                          ///< [#]
   std::vector<Eigen::Vector3d> points_;   ///< [m]
+  int image_width_ = 0;                   ///< [px]
+  int subsampling_ = 1;                   ///< [px]
+  std::vector<std::size_t> pixel_of_;     ///< subsampled pixel of each point
+  std::vector<std::size_t> region_;       ///< points of the selected plane's region
   std::vector<std::ptrdiff_t> point_of_;  ///< point of each subsampled pixel, -1: no reading
   Effort* effort_ = nullptr;
 };

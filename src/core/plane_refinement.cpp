@@ -137,33 +137,32 @@ float scatterAbout(const TileJudge& judge, const TileRegion& region, const Hesse
 
 }  // namespace
 
-std::optional<RefinedPlane> fitPlane(const TileJudge& judge, const TileRegion& region,
+std::optional<SurfacePlane> fitPlane(const TileJudge& judge, const TileRegion& region,
                                      const HessePlane& start, float level) {
-  RefinedPlane result{start, level};
-  while (result.fits < kMaxSteps) {
+  SurfacePlane result{start, level, 0};
+  for (bool final = false; !final && result.fits < kMaxSteps; ++result.fits) {
     const auto next =
         step(judge, region, result.plane, level, std::numeric_limits<float>::infinity());
     if (!next) return std::nullopt;
     result.plane = next->plane;
-    ++result.fits;
-    if (next->final) break;
+    final = next->final;
   }
   return result;
 }
 
-std::optional<RefinedPlane> refinePlane(const TileJudge& judge, const TileRegion& region) {
-  HessePlane mode = mostSupported(judge, region);
-  std::size_t fits = 0;
-  for (bool final = false; !final && fits < kModeSteps; ++fits) {
-    const auto next = step(judge, region, mode, std::numeric_limits<float>::infinity(), kWidth);
+std::optional<SurfacePlane> findSurface(const TileJudge& judge, const TileRegion& region) {
+  constexpr float kAll = std::numeric_limits<float>::infinity();
+  SurfacePlane mode{mostSupported(judge, region), kAll, 0};
+  for (bool final = false; !final && mode.fits < kModeSteps; ++mode.fits) {
+    const auto next = step(judge, region, mode.plane, kAll, kWidth);
     if (!next) return std::nullopt;
-    mode = next->plane;
+    mode.plane = next->plane;
     final = next->final;
   }
-  const float level = std::max(kMinLevel, kScatters * scatterAbout(judge, region, mode));
-  std::optional<RefinedPlane> result = fitPlane(judge, region, mode, level);
-  if (result) result->fits += fits;
-  return result;
+  const float level = std::max(kMinLevel, kScatters * scatterAbout(judge, region, mode.plane));
+  std::optional<SurfacePlane> surface = fitPlane(judge, region, mode.plane, level);
+  if (surface) surface->fits += mode.fits;
+  return surface;
 }
 
 }  // namespace dominant_plane_detection

@@ -10,6 +10,11 @@ constexpr double kSmallestUp = 0.087;
 
 void SeedOrder::build(int columns, int rows, const Eigen::Vector2d& focal_lengths,
                       const Eigen::Vector3d& up) {
+  if (columns == columns_ && rows == rows_ && focal_lengths == focal_lengths_ && up == up_) return;
+  columns_ = columns;
+  rows_ = rows;
+  focal_lengths_ = focal_lengths;
+  up_ = up;
   const Eigen::Vector2d up_in_image = up.head<2>();
   const bool no_lower_half = up_in_image.norm() < kSmallestUp;
   // Offsets from the image's middle, doubled so that they are whole numbers.

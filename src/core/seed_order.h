@@ -11,6 +11,7 @@ namespace dominant_plane_detection {
 /// turned.
 class SeedOrder {
  public:
+  /// Does nothing where all is as it was.
   /// @param columns, rows [#] of square cells that cover the image; none for an empty image.
   /// @param focal_lengths [px] (fx, fy), positive; only their ratio matters.
   /// @param up [-] unit, in the optical frame. Where it is within 5 degrees of the optical axis no
@@ -24,6 +25,10 @@ class SeedOrder {
   std::size_t firstGroup() const { return first_group_; }
 
  private:
+  int columns_ = 0;
+  int rows_ = 0;
+  Eigen::Vector2d focal_lengths_ = Eigen::Vector2d::Zero();
+  Eigen::Vector3d up_ = Eigen::Vector3d::Zero();
   std::vector<std::size_t> cells_;
   std::size_t first_group_ = 0;
 };

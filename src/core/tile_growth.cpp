@@ -32,9 +32,7 @@ void TileGrowth::start(const TileMoments& tiles, double tile_angle) {
 }
 
 void TileGrowth::clear() {
-  for (const std::size_t tile : region_.tiles) region_.member[tile] = 0;
-  region_.tiles.clear();
-  region_.points = 0;
+  region_.clear();
   places_.clear();
   std::fill(looked_.begin(), looked_.end(), std::uint8_t{0});
   moments_ = PlaneMoments();
@@ -74,9 +72,7 @@ void TileGrowth::join(const Call& call, const Place& place) {
   const TileMoments& tiles = call.judge.tiles();
   const std::size_t tile = place.tile;
   const double count = static_cast<double>(tiles.count[tile]);
-  region_.member[tile] = 1;
-  region_.tiles.push_back(tile);
-  region_.points += static_cast<std::size_t>(count);
+  region_.add(tile, tiles);
   places_.push_back(place.open);
   open_[place.open] = 0;
   sum_epsilon2_ += count * static_cast<double>(call.judge.limits().epsilon2[tile]);
@@ -106,17 +102,6 @@ const TileRegion& TileGrowth::grow(TileJudge& judge, const TileSeed& seed,
   refit(judge);
   spread(call);
   refit(judge);
-  return region_;
-}
-
-const TileRegion& TileGrowth::collect(TileJudge& judge, std::size_t first,
-                                      const std::vector<std::uint8_t>& taken) {
-  const Call call{judge, taken, Mode::kCollect};
-  clear();
-  join(call, placeOf(first));
-  sum_square_ = static_cast<double>(judge.tiles().count[first]) *
-                static_cast<double>(judge.meanSquare(first));
-  spread(call);
   return region_;
 }
 
@@ -176,15 +161,31 @@ std::size_t TileGrowth::closeMember(const TileJudge& judge, int column, int row)
   return tile;
 }
 
+/// @return [tile] how far away in the image from any of its tiles a tile within delta can be.
+int TileGrowth::reachOfRegion(const TileJudge& judge) const {
+  // A large region is seldom far from any row: what it would save is not worth the look.
+  constexpr std::size_t kLarge = 200;
+  if (region_.tiles.size() > kLarge) return rows_;
+  int most = 0;
+  for (const std::size_t tile : region_.tiles) most = std::max(most, reach(judge, tile));
+  return most;
+}
+
 /// Joins tiles that have no neighbour in the region, but come closer to it than delta: across what
 /// has no reading, or stands before the plane. Only the rims of what is left need to be looked at.
 /// @return whether there were any.
 bool TileGrowth::bridgeGaps(const Call& call) {
-  look(call, 0, rows_ - 1);
-  const std::size_t before = region_.tiles.size();
   const auto columns = static_cast<std::size_t>(columns_);
+  const auto rowOf = [&](std::size_t open) { return static_cast<int>(open / (columns + 2)) - 1; };
+  const auto [top, bottom] = std::minmax_element(places_.begin(), places_.end());
+  const int margin = reachOfRegion(call.judge);
+  const int first = std::max(rowOf(*top) - margin, 0);
+  const int last = std::min(rowOf(*bottom) + margin, rows_ - 1);
+  look(call, first - 1, last + 1);
+  const std::size_t before = region_.tiles.size();
   const auto steps = stepsToNeighbours(columns + 2);
-  for (std::size_t open = columns + 3; open + columns + 3 + 8 < open_.size(); ++open) {
+  const auto end = static_cast<std::size_t>(last + 2) * (columns + 2);
+  for (auto open = static_cast<std::size_t>(first + 1) * (columns + 2); open < end; ++open) {
     std::uint64_t eight = 0;
     std::memcpy(&eight, &open_[open], sizeof(eight));
     if (eight == 0) {  // most of them
@@ -195,10 +196,11 @@ bool TileGrowth::bridgeGaps(const Call& call) {
     const bool inside = std::all_of(steps.begin(), steps.end(),
                                     [&](std::size_t step) { return open_[open + step] != 0; });
     if (inside) continue;
-    const std::size_t row = open / (columns + 2) - 1, column = open % (columns + 2) - 1;
-    const Place place{row * columns + column, open};
-    const std::size_t from =
-        closeMember(call.judge, static_cast<int>(column), static_cast<int>(row));
+    const int row = rowOf(open);
+    const int column =
+        static_cast<int>(open - static_cast<std::size_t>(row + 1) * (columns + 2)) - 1;
+    const Place place{static_cast<std::size_t>(row * columns_ + column), open};
+    const std::size_t from = closeMember(call.judge, column, row);
     if (from != place.tile) tryToJoin(call, place, from);
   }
   return region_.tiles.size() > before;

@@ -16,6 +16,18 @@ struct TileRegion {
   std::size_t points = 0;            ///< [px]
   std::vector<std::size_t> tiles;    ///< in the order they joined
   std::vector<std::uint8_t> member;  ///< 1 for these, padded like the moments
+
+  void clear() {
+    for (const std::size_t tile : tiles) member[tile] = 0;
+    tiles.clear();
+    points = 0;
+  }
+  /// @pre the tile is no member.
+  void add(std::size_t tile, const TileMoments& moments) {
+    member[tile] = 1;
+    tiles.push_back(tile);
+    points += static_cast<std::size_t>(moments.count[tile]);
+  }
 };
 
 /// The region growing of section III.B over image tiles: what joins the region is a tile of points
@@ -38,14 +50,8 @@ class TileGrowth {
   const TileRegion& grow(TileJudge& judge, const TileSeed& seed,
                          const std::vector<std::uint8_t>& taken);
 
-  /// Grows a region on the judge's plane, which stays.
-  /// @param first where it starts.
-  /// @pre first is on the plane, and not taken.
-  const TileRegion& collect(TileJudge& judge, std::size_t first,
-                            const std::vector<std::uint8_t>& taken);
-
   /// Collects all that hangs together with some tiles and touches the judge's plane, or lies on it,
-  /// by delta alone. The judge has judged all rows.
+  /// by delta alone.
   const TileRegion& surround(TileJudge& judge, const std::vector<std::size_t>& tiles,
                              const std::vector<std::uint8_t>& taken);
 
@@ -58,8 +64,7 @@ class TileGrowth {
   /// What joins, and what becomes of the plane.
   enum class Mode {
     kGrow,      ///< tiles on the plane, within epsilon; the plane is fitted again
-    kCollect,   ///< the same, the plane stays
-    kSurround,  ///< tiles that touch the plane
+    kSurround,  ///< tiles that touch the plane, which stays
   };
 
   /// What the present call looks at.
@@ -83,6 +88,7 @@ class TileGrowth {
   bool bridgeGaps(const Call& call);
   std::size_t closeMember(const TileJudge& judge, int column, int row) const;
   int reach(const TileJudge& judge, std::size_t tile) const;
+  int reachOfRegion(const TileJudge& judge) const;
   void refit(TileJudge& judge);
 
   int columns_ = 0;
