@@ -86,14 +86,11 @@ bool GridSearch::tryRegion(std::size_t tile) {
   return true;
 }
 
-/// Looks for the one surface in what was grown, and decides again what belongs to it.
+/// Keeps a region that is a surface, with the pieces of its plane.
 void GridSearch::finishRegion(const TileRegion& grown) {
-  const std::optional<SurfacePlane> surface = findSurface(judge_, grown);
-  if (!surface || !collectSurface(*surface, grown.tiles)) return;
-  const std::optional<SurfacePlane> fit = fitPlane(judge_, region_, surface->plane, surface->level);
-  if (!fit || !check_.isSurface(judge_, region_)) return;
-  effort_->fits += surface->fits + fit->fits;
-  region_.plane = fit->plane;
+  const std::optional<SurfacePlane> surface = decideAgain(grown);
+  if (!surface || !check_.isSurface(judge_, region_)) return;
+  region_.plane = surface->plane;
   joinPieces(surface->level);
   effort_->joined += region_.tiles.size();
   const std::size_t best = selection_->points();
@@ -102,6 +99,26 @@ void GridSearch::finishRegion(const TileRegion& grown) {
   if (verdict != State::kFound && seeds_ == Seeds::kPromising) return;
   for (const std::size_t tile : region_.tiles) take(tile);
   if (selection_->points() > best) ground_ = ground_tiles_.ground();
+}
+
+/// Looks for the one surface in what was grown, and decides again what belongs to it. What is much
+/// more than was grown may show another surface.
+/// @return the plane fitted to the region.
+std::optional<SurfacePlane> GridSearch::decideAgain(const TileRegion& grown) {
+  constexpr double kMuchMore = 1.5;
+  std::optional<SurfacePlane> surface = findSurface(judge_, grown);
+  std::size_t before = grown.points;
+  if (!surface || !collectSurface(*surface, grown.tiles)) return std::nullopt;
+  while (static_cast<double>(region_.points) > kMuchMore * static_cast<double>(before)) {
+    effort_->fits += surface->fits;
+    before = region_.points;
+    surface = findSurface(judge_, region_);
+    tiles_so_far_ = region_.tiles;
+    if (!surface || !collectSurface(*surface, tiles_so_far_)) return std::nullopt;
+  }
+  const std::optional<SurfacePlane> fit = fitPlane(judge_, region_, surface->plane, surface->level);
+  effort_->fits += surface->fits + (fit ? fit->fits : 0);
+  return fit;
 }
 
 /// The region becomes the tiles of what was grown that lie on the plane, and what hangs together
@@ -128,8 +145,8 @@ void GridSearch::joinPieces(float level) {
   for (const std::size_t tile : ground_tiles_.pieces()) region_.add(tile, *tiles_);
   const std::optional<SurfacePlane> joint = fitPlane(judge_, region_, region_.plane, level);
   if (!joint) return;
-  joint_tiles_ = region_.tiles;
-  collectSurface({joint->plane, level, 0}, joint_tiles_);
+  tiles_so_far_ = region_.tiles;
+  collectSurface({joint->plane, level, 0}, tiles_so_far_);
 }
 
 }  // namespace dominant_plane_detection

@@ -54,6 +54,7 @@ class GridSearch : private RegionSource {
   std::size_t availablePoints() const override { return available_points_; }
   bool tryRegion(std::size_t tile) override;
   void finishRegion(const TileRegion& grown);
+  std::optional<SurfacePlane> decideAgain(const TileRegion& grown);
   bool collectSurface(const SurfacePlane& surface, const std::vector<std::size_t>& grown);
   void joinPieces(float level);
   void take(std::size_t tile);
@@ -62,8 +63,8 @@ class GridSearch : private RegionSource {
   TileLimits limits_;
   TileJudge judge_;
   TileGrowth growth_;
-  TileRegion region_;                     ///< what was grown, decided again
-  std::vector<std::size_t> joint_tiles_;  ///< of region and pieces
+  TileRegion region_;                      ///< what was grown, decided again
+  std::vector<std::size_t> tiles_so_far_;  ///< of the region, while it is decided again
   SurfaceCheck check_;
   GroundTiles ground_tiles_;
   SeedOrder order_;
