@@ -27,6 +27,9 @@ constexpr double kMinCondition = 1e-7;
 constexpr float kQuartile = 0.3186F;
 /// [-] Standard deviations that belong to the surface; the scatter may double with distance.
 constexpr float kScatters = 4.0F;
+/// [#] Most levels that are tried, and how much larger than the last the next one has to be.
+constexpr int kLevels = 4;
+constexpr float kSameLevel = 1.15F;
 /// [-] Smallest level in sigma(z); the scatter of exact readings is 0.
 constexpr float kMinLevel = 0.3F;
 
@@ -73,6 +76,18 @@ struct Sample {
     }
   }
 
+  /// @return [-] the standard deviation of the tiles' heights over a plane in sigma(z), judged
+  /// where they are densest: by the quarter of them that is nearest to it.
+  float scatter(const Eigen::Vector3f& normal, float distance) const {
+    std::array<float, kSample> off{};
+    for (std::size_t i = 0; i < size; ++i) {
+      off[i] = std::abs(normal.dot(centre[i]) - distance) * inverse_width[i] * kWidth;
+    }
+    const auto quarter = off.begin() + static_cast<std::ptrdiff_t>(size / 4);
+    std::nth_element(off.begin(), quarter, off.begin() + static_cast<std::ptrdiff_t>(size));
+    return *quarter / kQuartile;
+  }
+
   /// @return [px] that lie on a plane, those off it counting the less the farther they are.
   float support(const Eigen::Vector3f& normal, float distance) const {
     float sum = 0.0F;
@@ -85,8 +100,7 @@ struct Sample {
 };
 
 /// @return of the region's plane and of planes through three of its tiles, that with most support.
-HessePlane mostSupported(const TileJudge& judge, const TileRegion& region) {
-  const Sample sample(judge, region);
+HessePlane mostSupported(const Sample& sample, const TileRegion& region) {
   HessePlane best = region.plane;
   float best_support = sample.support(best.normal.cast<float>(), static_cast<float>(best.distance));
   // Even in three dimensions: M. Roberts' generalisation of the golden ratio, x^4 = x + 1.
@@ -112,29 +126,6 @@ HessePlane mostSupported(const TileJudge& judge, const TileRegion& region) {
   return best;
 }
 
-/// @return [-] the scatter of the region's tiles about a plane, in sigma(z), where they are
-/// densest.
-float scatterAbout(const TileJudge& judge, const TileRegion& region, const HessePlane& plane) {
-  constexpr float kBins = 64.0F, kEnd = 3.2F;  // [#], [-]: finer than kMinLevel needs
-  std::array<float, 65> points{};              // what is beyond the end comes last
-  const TileMoments& tiles = judge.tiles();
-  const Eigen::Vector3f normal = plane.normal.cast<float>();
-  const auto distance = static_cast<float>(plane.distance);
-  float total = 0.0F;
-  for (const std::size_t tile : region.tiles) {
-    const float height = normal.x() * tiles.x[tile] + normal.y() * tiles.y[tile] +
-                         normal.z() * tiles.z[tile] - distance;
-    const float bin = std::abs(height) * judge.limits().inverse_sigma[tile] * (kBins / kEnd);
-    points[static_cast<std::size_t>(std::min(bin, kBins))] += tiles.count[tile];
-    total += tiles.count[tile];
-  }
-  float below = 0.0F;
-  std::size_t bin = 0;
-  while (below + points[bin] < 0.25F * total) below += points[bin++];
-  const float within = (0.25F * total - below) / points[bin];
-  return (static_cast<float>(bin) + within) * (kEnd / kBins) / kQuartile;
-}
-
 }  // namespace
 
 std::optional<SurfacePlane> fitPlane(const TileJudge& judge, const TileRegion& region,
@@ -152,16 +143,27 @@ std::optional<SurfacePlane> fitPlane(const TileJudge& judge, const TileRegion& r
 
 std::optional<SurfacePlane> findSurface(const TileJudge& judge, const TileRegion& region) {
   constexpr float kAll = std::numeric_limits<float>::infinity();
-  SurfacePlane mode{mostSupported(judge, region), kAll, 0};
-  for (bool final = false; !final && mode.fits < kModeSteps; ++mode.fits) {
-    const auto next = step(judge, region, mode.plane, kAll, kWidth);
+  const Sample sample(judge, region);
+  SurfacePlane surface{mostSupported(sample, region), kAll, 0};
+  for (bool final = false; !final && surface.fits < kModeSteps; ++surface.fits) {
+    const auto next = step(judge, region, surface.plane, kAll, kWidth);
     if (!next) return std::nullopt;
-    mode.plane = next->plane;
+    surface.plane = next->plane;
     final = next->final;
   }
-  const float level = std::max(kMinLevel, kScatters * scatterAbout(judge, region, mode.plane));
-  std::optional<SurfacePlane> surface = fitPlane(judge, region, mode.plane, level);
-  if (surface) surface->fits += mode.fits;
+  // A smooth error is densest somewhere, too: as long as what is near is one surface with what is
+  // beyond, the scatter about their common plane is larger than about the densest part alone.
+  surface.level = kMinLevel;
+  for (int i = 0; i < kLevels; ++i) {
+    const float scatter = sample.scatter(surface.plane.normal.cast<float>(),
+                                         static_cast<float>(surface.plane.distance));
+    if (i > 0 && kScatters * scatter < kSameLevel * surface.level) break;
+    surface.level = std::max(surface.level, kScatters * scatter);
+    const auto fit = fitPlane(judge, region, surface.plane, surface.level);
+    if (!fit) return std::nullopt;
+    surface.plane = fit->plane;
+    surface.fits += fit->fits;
+  }
   return surface;
 }
 
