@@ -134,7 +134,7 @@ bool GridSearch::collectSurface(const SurfacePlane& surface,
     if (judge_.onPlane(tile)) region_.add(tile, *tiles_);
   }
   if (region_.tiles.empty()) return false;
-  ground_tiles_.collect(judge_, region_, taken_, piece_limits_);
+  ground_tiles_.collect(judge_, region_, piece_limits_);
   return true;
 }
 

@@ -1,6 +1,7 @@
 #include "core/surface_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -34,7 +35,55 @@ void raiseToConcave(std::vector<double>& values, std::vector<std::size_t>& corne
   }
 }
 
+constexpr double kMaxBend = 0.052;  // [rad] 3 degrees
+/// Tiles that the halves' planes are fitted to.
+constexpr std::size_t kSample = 256;
+
+/// One half of a region.
+struct Half {
+  PlaneMoments moments;
+  double sigma = 0.0;  ///< [m] summed over the points
+
+  void add(const TileJudge& judge, std::size_t tile) {
+    const TileMoments& tiles = judge.tiles();
+    const double count = static_cast<double>(tiles.count[tile]);
+    moments.add(count, tiles.centre(tile), tiles.scatter(tile));
+    sigma += count / static_cast<double>(judge.limits().inverse_sigma[tile]);
+  }
+  /// @return [rad] by which a plane through it may be turned.
+  double tolerance(const PlaneFit& fit) const {
+    return std::atan(sigma / moments.count() / std::sqrt(fit.eigenvalues[1] / moments.count()));
+  }
+};
+
+/// @return whether the planes of two halves are the same; where one has none they are.
+bool haveSamePlane(const Half& a, const Half& b) {
+  const std::optional<PlaneFit> fit_a = a.moments.fit(), fit_b = b.moments.fit();
+  if (!fit_a || !fit_b) return true;
+  const double cosine = std::abs(fit_a->plane.normal.dot(fit_b->plane.normal));
+  return std::acos(std::min(cosine, 1.0)) < kMaxBend + a.tolerance(*fit_a) + b.tolerance(*fit_b);
+}
+
 }  // namespace
+
+bool SurfaceCheck::isFlat(const TileJudge& judge, const TileRegion& region) {
+  const auto columns = static_cast<std::size_t>(judge.tiles().columns);
+  const std::size_t size = std::min(region.tiles.size(), kSample);
+  const auto forEach = [&](auto function) {
+    for (std::size_t i = 0; i < size; ++i) function(region.tiles[i * region.tiles.size() / size]);
+  };
+  std::size_t sum_columns = 0, sum_rows = 0;
+  forEach([&](std::size_t tile) {
+    sum_columns += tile % columns;
+    sum_rows += tile / columns;
+  });
+  std::array<Half, 2> sides, levels;
+  forEach([&](std::size_t tile) {
+    sides[tile % columns * size < sum_columns].add(judge, tile);
+    levels[tile / columns * size < sum_rows].add(judge, tile);
+  });
+  return haveSamePlane(sides[0], sides[1]) && haveSamePlane(levels[0], levels[1]);
+}
 
 void SurfaceCheck::findHull(const TileMoments& tiles, const TileRegion& region) {
   left_.assign(static_cast<std::size_t>(tiles.rows), kOutside);
@@ -50,7 +99,7 @@ void SurfaceCheck::findHull(const TileMoments& tiles, const TileRegion& region) 
   raiseToConcave(right_, corners_);
 }
 
-bool SurfaceCheck::isSurface(TileJudge& judge, const TileRegion& region) {
+bool SurfaceCheck::isFilled(TileJudge& judge, const TileRegion& region) {
   judge.judgeAll();
   const TileMoments& tiles = judge.tiles();
   findHull(tiles, region);

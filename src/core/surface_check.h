@@ -7,14 +7,26 @@
 
 namespace dominant_plane_detection {
 
-/// Tells a surface from the stripes along which a plane cuts through a room.
+/// Tells a plane's surface from what only crosses or touches the plane.
 class SurfaceCheck {
  public:
   /// @param judge with the region's plane; all rows are judged.
+  /// @return whether the region is filled and flat.
+  bool isSurface(TileJudge& judge, const TileRegion& region) {
+    return isFilled(judge, region) && isFlat(judge, region);
+  }
+
+  /// Tells stripes along which a plane cuts through a room.
   /// @return whether, of the tiles inside the region's convex hull in the image whose readings are
   /// not nearer than the plane, at least half lie on it. What is nearer may hide the surface; what
   /// is farther shows that it is not there.
-  bool isSurface(TileJudge& judge, const TileRegion& region);
+  bool isFilled(TileJudge& judge, const TileRegion& region);
+
+  /// Tells a cap of a ball, or a fold of cloth.
+  /// @return whether the planes of the region's left and right half in the image, and those of its
+  /// upper and lower half, differ by less than 3 degrees, and as much as sigma(z) over the width of
+  /// either half can turn it. In recordings of floors they differ by 0.3 to 0.8 degrees.
+  static bool isFlat(const TileJudge& judge, const TileRegion& region);
 
  private:
   void findHull(const TileMoments& tiles, const TileRegion& region);
