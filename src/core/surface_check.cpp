@@ -35,7 +35,7 @@ void raiseToConcave(std::vector<double>& values, std::vector<std::size_t>& corne
   }
 }
 
-constexpr double kMaxBend = 0.052;  // [rad] 3 degrees
+constexpr double kMaxBend = 0.035;  // [rad] 2 degrees
 /// Tiles that the halves' planes are fitted to.
 constexpr std::size_t kSample = 256;
 
@@ -50,7 +50,7 @@ struct Half {
     moments.add(count, tiles.centre(tile), tiles.scatter(tile));
     sigma += count / static_cast<double>(judge.limits().inverse_sigma[tile]);
   }
-  /// @return [rad] by which a plane through it may be turned.
+  /// @return [rad] by which a step of sigma(z) over its width turns a plane through it.
   double tolerance(const PlaneFit& fit) const {
     return std::atan(sigma / moments.count() / std::sqrt(fit.eigenvalues[1] / moments.count()));
   }
@@ -61,7 +61,8 @@ bool haveSamePlane(const Half& a, const Half& b) {
   const std::optional<PlaneFit> fit_a = a.moments.fit(), fit_b = b.moments.fit();
   if (!fit_a || !fit_b) return true;
   const double cosine = std::abs(fit_a->plane.normal.dot(fit_b->plane.normal));
-  return std::acos(std::min(cosine, 1.0)) < kMaxBend + a.tolerance(*fit_a) + b.tolerance(*fit_b);
+  const double noise = 0.5 * std::hypot(a.tolerance(*fit_a), b.tolerance(*fit_b));
+  return std::acos(std::min(cosine, 1.0)) < kMaxBend + noise;
 }
 
 }  // namespace

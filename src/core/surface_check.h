@@ -24,8 +24,8 @@ class SurfaceCheck {
 
   /// Tells a cap of a ball, or a fold of cloth.
   /// @return whether the planes of the region's left and right half in the image, and those of its
-  /// upper and lower half, differ by less than 3 degrees, and as much as sigma(z) over the width of
-  /// either half can turn it. In recordings of floors they differ by 0.3 to 0.8 degrees.
+  /// upper and lower half, differ by less than 2 degrees, and as much as half of sigma(z) over the
+  /// halves' widths can turn them. In recordings of floors they differ by 0.3 to 0.8 degrees.
   static bool isFlat(const TileJudge& judge, const TileRegion& region);
 
  private:
