@@ -47,7 +47,7 @@ struct Effort {
 /// The dominant plane of one depth image, in the depth optical frame.
 ///
 /// Without a plane (state other than kFound) the numbers are NaN, the counts 0 and every label
-/// kUnknown; with kBadInput the image has no size and no labels either.
+/// kUnknown; where there was no image, or of an impossible size, it has no labels and the size 0.
 struct Detection {
   State state = State::kNoDepth;
   std::string reason;  ///< empty when found, otherwise one sentence with the numbers

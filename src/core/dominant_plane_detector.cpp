@@ -18,7 +18,7 @@ namespace dominant_plane_detection {
 namespace {
 
 /// [px] Larger images come from no depth camera, but from broken headers.
-constexpr int kMaxSide = 16384;
+constexpr int kMaxSide = 8192;
 
 using Sentence = std::array<char, 256>;
 
@@ -26,6 +26,12 @@ void requireValid(const Parameters& parameters) {
   std::string all;
   for (const std::string& error : findErrors(parameters)) all += (all.empty() ? "" : "; ") + error;
   if (!all.empty()) throw std::invalid_argument(all);
+}
+
+/// @return whether there is an image, of a size that can be.
+bool isPossible(const DepthView& depth) {
+  return depth.data != nullptr && depth.width > 0 && depth.height > 0 && depth.width <= kMaxSide &&
+         depth.height <= kMaxSide;
 }
 
 /// @return whether image and camera can be used; otherwise `sentence` says why not.
@@ -82,11 +88,9 @@ class DominantPlaneDetector::Implementation {
   const Parameters& parameters() const { return parameters_; }
 
   const Detection& detect(const DepthView& depth, const CameraModel& camera, const Prior& prior) {
-    clear(prior);
+    clear(depth, prior);
     Sentence sentence{};
     if (!check(depth, camera, prior, sentence)) return refuse(State::kBadInput, sentence);
-    detection_.image_width = depth.width;
-    detection_.image_height = depth.height;
     rays_.build(camera);
     const ImageInput input{depth, rays_, {metresPerUnit(depth), rangeMin(), rangeMax()}};
     computeTileMoments(depth, rays_, rangeMin(), rangeMax(), tiles_);
@@ -137,7 +141,7 @@ class DominantPlaneDetector::Implementation {
   float rangeMax() const { return static_cast<float>(parameters_.range_max); }
 
   /// Everything as it is without a plane; memory is kept.
-  void clear(const Prior& prior) {
+  void clear(const DepthView& depth, const Prior& prior) {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     detection_.state = State::kNoDepth;
     detection_.reason.clear();
@@ -149,7 +153,9 @@ class DominantPlaneDetector::Implementation {
     detection_.valid_pixels = 0;
     detection_.effort = Effort();
     detection_.up_source = prior.expected_up ? prior.up_source : UpSource::kFixed;
-    detection_.image_width = detection_.image_height = 0;
+    const bool possible = isPossible(depth);
+    detection_.image_width = possible ? depth.width : 0;
+    detection_.image_height = possible ? depth.height : 0;
   }
 
   PlaneLimits limits(const Prior& prior) const {
