@@ -126,8 +126,9 @@ PlaneResiduals sumResiduals(const TileMoments& t, const TileLimits& limits, cons
   auto points = hn::Zero(d), s = points, s_a = points, s_b = points, s_h = points;
   auto s_aa = points, s_ab = points, s_bb = points, s_ah = points, s_bh = points;
   for (std::size_t i = 0; i < t.count.size(); i += hn::Lanes(d)) {
-    const TileHeights tile = tileHeights(t, limits, frame, level, i);
     const auto member = hn::Ne(hn::PromoteTo(wide, hn::LoadU(bytes, &members[i])), hn::Zero(wide));
+    if (hn::AllFalse(wide, member)) continue;
+    const TileHeights tile = tileHeights(t, limits, frame, level, i);
     const auto used = hn::And(tile.on_plane, hn::RebindMask(d, member));
     const auto k = hn::IfThenElseZero(used, tile.count);
     const auto inverse_sigma = hn::LoadU(d, &limits.inverse_sigma[i]);
