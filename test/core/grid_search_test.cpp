@@ -1,0 +1,246 @@
+#include "core/grid_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "support/tile_scene.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+
+/// What a search came to.
+struct Result {
+  PlaneSelection selection;
+  Effort effort;
+  std::vector<std::uint8_t> ground;
+
+  std::size_t tiles() const {
+    return static_cast<std::size_t>(std::accumulate(ground.begin(), ground.end(), 0));
+  }
+};
+
+template <typename Pixel>
+Result search(const OwnedDepth<Pixel>& depth, const CameraModel& camera,
+              const Parameters& parameters = {}, std::size_t min_points = 500) {
+  const TileScene scene(depth, camera);
+  Result result{PlaneSelection({parameters.expected_up.normalized(), parameters.max_tilt,
+                                parameters.min_height, parameters.max_height, min_points}),
+                {},
+                {}};
+  GridSearch grid;
+  grid.run({scene.tiles, camera, 100}, parameters, result.selection, result.effort);
+  if (result.selection.found()) result.ground = grid.ground();
+  return result;
+}
+
+const CameraModel kCamera = testCamera(320, 240);
+
+HessePlane ground(double pitch, double height) { return {-upOf(pitch), height}; }
+
+OwnedDepth<float> everywhere(const HessePlane& plane) {
+  OwnedDepth<float> depth(kCamera.width, kCamera.height);
+  paintTiles(depth, kCamera, plane, [](int, int) { return true; });
+  return depth;
+}
+
+TEST(GridSearch, AFullFloorIsFoundAtOnce) {
+  const HessePlane floor = ground(0.9, 1.0);
+  const Result result = search(everywhere(floor), kCamera);
+  ASSERT_TRUE(result.selection.found());
+  EXPECT_LT(angleBetween(result.selection.plane(), floor), 1e-4);
+  EXPECT_NEAR(result.selection.plane().distance, 1.0, 1e-4);
+  EXPECT_EQ(result.selection.points(), 320U * 240U);
+  EXPECT_EQ(result.tiles(), 1200U);
+  EXPECT_LE(result.effort.seeds, 3U);  // the first may be a corner
+  EXPECT_EQ(result.effort.regions, 1U);
+  EXPECT_EQ(result.effort.joined, 2U * 1200U);  // grown, and collected on its final plane
+  EXPECT_GE(result.effort.tests, 1200U - 9U);
+  EXPECT_LE(result.effort.tests, 2U * 1200U);
+  EXPECT_GE(result.effort.fits, 10U);
+  EXPECT_LE(result.effort.fits, 30U);
+}
+
+TEST(GridSearch, TheLargerOfTwoGroundsWinsWhateverTheSeeds) {
+  const HessePlane floor = ground(0.9, 1.0), table = ground(0.9, 0.7);
+  for (const bool larger_left : {false, true}) {
+    OwnedDepth<float> depth = everywhere(floor);
+    paintTiles(depth, kCamera, table,
+               [&](int column, int) { return larger_left ? column >= 24 : column < 24; });
+    Parameters parameters;
+    for (parameters.random_seed = 0; parameters.random_seed < 20; ++parameters.random_seed) {
+      const Result result = search(depth, kCamera, parameters);
+      ASSERT_TRUE(result.selection.found());
+      EXPECT_NEAR(result.selection.plane().distance, larger_left ? 1.0 : 0.7, 1e-3);
+      EXPECT_EQ(result.tiles(), 720U);
+      for (int row = 0; row < 30; ++row) {
+        EXPECT_EQ(result.ground[static_cast<std::size_t>(row * 40 + 5)], 1);
+        EXPECT_EQ(result.ground[static_cast<std::size_t>(row * 40 + 35)], 0);
+      }
+    }
+  }
+}
+
+/// A square plate before a camera 0.6 m up, with a Kinect's noise; rays by own arithmetic.
+struct Plate {
+  double height;  ///< [m]
+  double ahead;   ///< [m]
+  unsigned seed;
+
+  OwnedDepth<std::uint16_t> depth(const CameraModel& camera, double pitch) const {
+    OwnedDepth<std::uint16_t> depth(camera.width, camera.height);
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> gauss;
+    for (int v = 0; v < camera.height; ++v) {
+      for (int u = 0; u < camera.width; ++u) {
+        const double x = (u - camera.cx) / camera.fx, y = (v - camera.cy) / camera.fy;
+        const double down = std::sin(pitch) + y * std::cos(pitch);
+        const double forward = std::cos(pitch) - y * std::sin(pitch);
+        if (down <= 0.0) continue;
+        const auto on_plate = [&](double z) {
+          return z * forward >= ahead && z * forward <= ahead + 0.8 && std::abs(z * x) <= 0.4;
+        };
+        const double on_top = (0.6 - height) / down, on_floor = 0.6 / down;
+        const double front = ahead / forward;
+        double z = on_floor;
+        if (on_plate(on_top)) {
+          z = on_top;
+        } else if (front * down > 0.6 - height && front * down < 0.6 &&
+                   std::abs(front * x) <= 0.4) {
+          z = front;
+        }
+        z += (0.002 + 1.425e-3 * z * z) * gauss(generator);
+        if (z > 0.5 && z < 4.0) depth.at(u, v) = static_cast<std::uint16_t>(std::lround(1e3 * z));
+      }
+    }
+    return depth;
+  }
+};
+
+TEST(GridSearch, APlateAndAFloorAreNotOne) {
+  const CameraModel camera = testCamera();
+  const double pitch = 0.45;
+  for (const double height : {0.015, 0.025, 0.040}) {
+    for (const unsigned seed : {1U, 2U}) {
+      const Plate plate{height, seed == 1 ? 0.8 : 1.0, seed};
+      const Result result = search(plate.depth(camera, pitch), camera);
+      ASSERT_TRUE(result.selection.found());
+      const HessePlane& plane = result.selection.plane();
+      EXPECT_LT(angleBetween(plane, ground(pitch, 0.6)), 0.3 * kDegree) << height;
+      EXPECT_NEAR(plane.distance, 0.6, 5e-3) << height;
+    }
+  }
+}
+
+TEST(GridSearch, UpsideDownItIsTheSame) {
+  const HessePlane floor = ground(0.5, 0.8);
+  OwnedDepth<float> depth(kCamera.width, kCamera.height);
+  paintTiles(depth, kCamera, floor, [](int, int row) { return row > 8; });
+  paintTiles(depth, kCamera, facing(2.5), [](int, int row) { return row <= 8; });
+  OwnedDepth<float> turned = depth;
+  std::reverse(turned.pixels.begin(), turned.pixels.end());
+  Parameters parameters;
+  const Result upright = search(depth, kCamera, parameters);
+  parameters.expected_up = {0.0, 1.0, 0.0};
+  const Result upside_down = search(turned, kCamera, parameters);
+  ASSERT_TRUE(upright.selection.found() && upside_down.selection.found());
+  EXPECT_EQ(upright.selection.points(), upside_down.selection.points());
+  EXPECT_EQ(upright.tiles(), upside_down.tiles());
+  EXPECT_GT(upright.tiles(), 800U);
+  EXPECT_NEAR(upside_down.selection.plane().distance, 0.8, 1e-3);
+}
+
+TEST(GridSearch, AWallIsTooTiltedAndTheBudgetIsKept) {
+  Parameters parameters;
+  parameters.seeds = 12;
+  const Result result = search(everywhere(facing(2.0)), kCamera, parameters);
+  EXPECT_FALSE(result.selection.found());
+  EXPECT_EQ(result.selection.refusal(), State::kTooTilted);
+  EXPECT_LE(result.effort.seeds, 2U * 12U);
+  EXPECT_EQ(result.effort.regions, 1U);  // the wall, to tell why
+}
+
+TEST(GridSearch, WhereNoPlaneIsAllSeedsAreTried) {
+  OwnedDepth<float> depth = everywhere(facing(2.0));
+  addNoise(
+      depth, [](double) { return 0.3; }, 1);
+  Parameters parameters;
+  parameters.seeds = 17;
+  const Result result = search(depth, kCamera, parameters);
+  EXPECT_FALSE(result.selection.found());
+  EXPECT_EQ(result.effort.seeds, 2U * 17U);
+  EXPECT_EQ(result.effort.regions, 0U);
+  EXPECT_EQ(result.effort.joined, 0U);
+  EXPECT_EQ(result.effort.fits, 2U * 17U);
+}
+
+TEST(GridSearch, WithoutReadingsThereIsNoSeed) {
+  const Result result = search(OwnedDepth<float>(320, 240), kCamera);
+  EXPECT_FALSE(result.selection.found());
+  EXPECT_EQ(result.effort.seeds, 0U);
+  EXPECT_EQ(result.effort.fits, 0U);
+}
+
+/// A wall beside a ground: its seeds take their tiles and grow nothing.
+TEST(GridSearch, AWallDoesNotHideTheGround) {
+  const HessePlane floor = ground(0.9, 1.0);
+  OwnedDepth<float> depth = everywhere(facing(3.0));
+  paintTiles(depth, kCamera, floor, [](int column, int row) { return row < 12 && column > 10; });
+  Parameters parameters;
+  for (parameters.random_seed = 0; parameters.random_seed < 5; ++parameters.random_seed) {
+    const Result result = search(depth, kCamera, parameters);
+    ASSERT_TRUE(result.selection.found());
+    EXPECT_EQ(result.tiles(), 12U * 29U);
+    EXPECT_EQ(result.selection.points(), 12U * 29U * 64U);
+    EXPECT_LT(angleBetween(result.selection.plane(), floor), 1e-4);
+  }
+}
+
+TEST(GridSearch, PiecesBeyondAGapJoinAndTurnThePlane) {
+  const HessePlane floor = ground(0.9, 1.0);
+  OwnedDepth<float> depth = everywhere(floor);
+  eraseTiles(depth, [](int column, int) { return column >= 20 && column < 26; });
+  Parameters parameters;
+  const Result joined = search(depth, kCamera, parameters);
+  ASSERT_TRUE(joined.selection.found());
+  EXPECT_EQ(joined.tiles(), 34U * 30U);
+  EXPECT_EQ(joined.selection.points(), 34U * 30U * 64U);
+  parameters.join_pieces = false;
+  const Result alone = search(depth, kCamera, parameters);
+  ASSERT_TRUE(alone.selection.found());
+  EXPECT_EQ(alone.tiles(), 20U * 30U);
+  EXPECT_EQ(alone.selection.points(), 20U * 30U * 64U);
+  // A piece 8 mm lower: its plane is between, nearer to the larger part.
+  paintTiles(depth, kCamera, ground(0.9, 1.002), [](int column, int) { return column >= 26; });
+  parameters.join_pieces = true;
+  const Result between = search(depth, kCamera, parameters);
+  ASSERT_TRUE(between.selection.found());
+  EXPECT_GT(between.selection.points(), 20U * 30U * 64U);
+}
+
+TEST(GridSearch, CollectsTheGroundOfAPlane) {
+  const HessePlane floor = ground(0.9, 1.0);
+  OwnedDepth<float> depth = everywhere(floor);
+  eraseTiles(depth, [](int column, int) { return column >= 20 && column < 26; });
+  paintTiles(depth, kCamera, ground(0.9, 0.8),
+             [](int column, int row) { return row < 3 && column < 20; });
+  const TileScene scene(depth, kCamera);
+  GridSearch grid;
+  Parameters parameters;
+  for (const bool join : {true, false}) {
+    parameters.join_pieces = join;
+    grid.collectGround({scene.tiles, kCamera, 100}, parameters, floor);
+    for (int row = 0; row < 30; ++row) {
+      for (int column = 0; column < 40; ++column) {
+        const bool left = column < 20 && row >= 3, right = column >= 26;
+        EXPECT_EQ(grid.ground()[scene.at(column, row)], left || (right && join)) << column;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection
