@@ -163,6 +163,25 @@ TEST(GridSearch, AWallIsTooTiltedAndTheBudgetIsKept) {
   EXPECT_EQ(result.effort.regions, 1U);  // the wall, to tell why
 }
 
+TEST(GridSearch, SaysWhyAGroundIsRefused) {
+  OwnedDepth<float> depth(kCamera.width, kCamera.height);
+  paintTiles(depth, kCamera, ground(0.9, 1.0), [](int c, int r) { return c < 8 && r < 8; });
+  Parameters parameters;
+  EXPECT_TRUE(search(depth, kCamera, parameters, 64 * 64).selection.found());
+  // Near to what is required and finished, or far from it and given up.
+  for (const std::size_t required : {64U * 64U + 1U, 4U * 64U * 64U}) {
+    const Result small = search(depth, kCamera, parameters, required);
+    EXPECT_FALSE(small.selection.found());
+    EXPECT_EQ(small.selection.refusal(), State::kTooSmall);
+    // Finished regions are counted twice: as grown, and as collected.
+    EXPECT_EQ(small.effort.joined, (required < 5000U ? 2U : 1U) * 64U * small.effort.regions);
+  }
+  parameters.max_height = 0.9;
+  const Result high = search(depth, kCamera, parameters);
+  EXPECT_FALSE(high.selection.found());
+  EXPECT_EQ(high.selection.refusal(), State::kOutOfHeightRange);
+}
+
 TEST(GridSearch, WhereNoPlaneIsAllSeedsAreTried) {
   OwnedDepth<float> depth = everywhere(facing(2.0));
   addNoise(

@@ -95,6 +95,32 @@ TEST(PlaneRefinement, ConvergesFromATiltedStart) {
   ASSERT_TRUE(fitted);
   EXPECT_LT(angleBetween(fitted->plane, kFloor), 2e-5);
   EXPECT_NEAR(fitted->plane.distance, 1.0, 2e-5);
+  EXPECT_EQ(fitted->fits, 2U);
+  // From far off, what lies within gamma of the start becomes more step by step.
+  start.normal = (start.normal + Eigen::Vector3d(0.2, 0.1, 0.0)).normalized();
+  const auto far = fitPlane(scene.judge, region, start, 5.0F);
+  ASSERT_TRUE(far);
+  EXPECT_EQ(far->fits, 4U);
+}
+
+/// A tenth of a millimetre, or of a milliradian, is final.
+TEST(PlaneRefinement, EndsWhenThePlaneMovesNoFurther) {
+  OwnedDepth<float> depth(kCamera.width, kCamera.height);
+  paintTiles(depth, kCamera, facing(1.0), kAll);
+  TileScene scene(depth, kCamera);
+  const TileRegion region = regionOf(scene, facing(1.0), kAll);
+  const auto fits = [&](const HessePlane& start) {
+    const auto fitted = fitPlane(scene.judge, region, start, 5.0F);
+    return fitted ? fitted->fits : 0U;
+  };
+  EXPECT_EQ(fits(facing(1.0)), 1U);
+  EXPECT_EQ(fits(facing(1.0 + 0.9e-4)), 1U);
+  EXPECT_EQ(fits(facing(1.0 - 0.9e-4)), 1U);
+  EXPECT_EQ(fits(facing(1.0 + 1.1e-4)), 2U);
+  EXPECT_EQ(fits(facing(1.0 - 1.1e-4)), 2U);
+  EXPECT_EQ(fits(facing(1.0, 0.9e-4, 0.0)), 1U);
+  EXPECT_EQ(fits(facing(1.0, 1.1e-4, 0.0)), 2U);
+  EXPECT_EQ(fits(facing(1.0, 0.0, -1.1e-4)), 2U);
 }
 
 TEST(PlaneRefinement, OneSurfaceStaysWhatItIs) {
@@ -163,6 +189,7 @@ TEST(PlaneRefinement, ExactReadingsHaveTheSmallestLevel) {
   const auto refined = refinePlane(scene.judge, regionOf(scene, kFloor, kAll));
   ASSERT_TRUE(refined);
   EXPECT_EQ(refined->level, 0.3F);
+  EXPECT_EQ(refined->fits, 2U);
   EXPECT_LT(angleBetween(refined->plane, kFloor), 2e-5);
 }
 
