@@ -251,7 +251,8 @@ TEST(GridSearch, CollectsTheGroundOfAPlane) {
   Parameters parameters;
   for (const bool join : {true, false}) {
     parameters.join_pieces = join;
-    grid.collectGround({scene.tiles, kCamera, 100}, parameters, floor);
+    grid.collectGround({scene.tiles, kCamera, 100}, parameters, floor,
+                       {scene.at(5, 20), scene.at(9, 25)});
     for (int row = 0; row < 30; ++row) {
       for (int column = 0; column < 40; ++column) {
         const bool left = column < 20 && row >= 3, right = column >= 26;

@@ -29,33 +29,31 @@ class GroundTilesTest : public testing::Test {
   }
   /// Collects the ground.
   /// @return [#] of its tiles beyond the region.
-  std::size_t collect(
-      bool join_pieces = true, std::size_t min_piece = 1,
-      const Where& taken = [](int, int) { return false; }) {
+  std::size_t collect(bool join_pieces = true, std::size_t min_piece = 1) {
     TileScene scene(depth_, kCamera, thresholds_);
     scene.judge.setPlane(kGround, {0.0, 0.0, 1.0});
     ground_tiles_.start(scene.tiles, scene.tile_angle);
-    std::vector<std::size_t> region;
+    TileRegion region;
+    region.plane = kGround;
+    region.member.assign(scene.tiles.count.size(), 0);
     for (int row = 0; row < 30; ++row) {
-      for (int column = 0; column < kRegion; ++column) region.push_back(scene.at(column, row));
-      for (int column = 0; column < 40; ++column) {
-        scene.taken[scene.at(column, row)] = taken(column, row);
+      for (int column = 0; column < kRegion; ++column) {
+        if ((column + row) % 2 == 0) region.add(scene.at(column, row), scene.tiles);
       }
     }
-    ground_tiles_.collect(scene.judge, kGround, region, scene.taken, {join_pieces, min_piece});
+    ground_tiles_.collect(scene.judge, region, {join_pieces, min_piece});
+    // What hangs together with it is the region, too.
+    EXPECT_GE(region.tiles.size(), 30U * kRegion);
     std::size_t count = 0;
     for (std::size_t i = 0; i < scene.tiles.size(); ++i) {
       const bool of_region = i % 40 < kRegion;
       EXPECT_GE(ground_tiles_.ground()[i], of_region);
       count += !of_region && ground_tiles_.ground()[i];
     }
-    std::size_t points = 0;
     for (const std::size_t tile : ground_tiles_.pieces()) {
-      points += static_cast<std::size_t>(scene.tiles.count[tile]);
       EXPECT_EQ(ground_tiles_.ground()[tile], 1);
       EXPECT_TRUE(scene.judge.onPlane(tile));
     }
-    EXPECT_EQ(ground_tiles_.piecePoints(), points);
     return count;
   }
 
@@ -73,10 +71,8 @@ TEST_F(GroundTilesTest, APieceBeyondAGapJoinsIfItMay) {
   paint(kGround, [](int c, int r) { return inside(c, r, 30, 15, 4, 4); });
   EXPECT_EQ(collect(true), 64U);
   EXPECT_EQ(ground_tiles_.pieces().size(), 64U);
-  EXPECT_EQ(ground_tiles_.piecePoints(), 64U * 64U);
   EXPECT_EQ(collect(false), 0U);
   EXPECT_TRUE(ground_tiles_.pieces().empty());
-  EXPECT_EQ(ground_tiles_.piecePoints(), 0U);
 }
 
 TEST_F(GroundTilesTest, WhatHangsTogetherWithTheRegionIsNoPiece) {
@@ -165,13 +161,6 @@ TEST_F(GroundTilesTest, TilesThatTouchAreGroundAndNoPieces) {
   // All points count for its size.
   EXPECT_EQ(collect(true, 36 * 64), 66U);
   EXPECT_EQ(collect(true, 36 * 64 + 1), 30U);
-}
-
-TEST_F(GroundTilesTest, TakenTilesJoinNeither) {
-  paint(kGround, [](int c, int r) { return inside(c, r, 20, 5, 8, 6) || c == kRegion; });
-  const Where taken = [](int c, int r) { return c == kRegion || inside(c, r, 20, 5, 2, 6); };
-  EXPECT_EQ(collect(true, 1, taken), 36U);
-  EXPECT_EQ(collect(true, 1, [](int c, int) { return c >= kRegion; }), 0U);
 }
 
 }  // namespace

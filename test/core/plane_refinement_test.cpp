@@ -129,7 +129,7 @@ TEST(PlaneRefinement, OneSurfaceStaysWhatItIs) {
       depth, [](double z) { return 1e-3 * z * z; }, 4);
   TileScene scene(depth, kCamera);
   const TileRegion region = regionOf(scene, kFloor, kAll);
-  const auto refined = refinePlane(scene.judge, region);
+  const auto refined = findSurface(scene.judge, region);
   ASSERT_TRUE(refined);
   const HessePlane expected =
       momentsFit(scene, region, kFloor, std::numeric_limits<float>::infinity());
@@ -163,7 +163,7 @@ TEST_P(TwoLevels, OneOfThemIsThePlane) {
     moments.add(scene.tiles.count[tile], scene.tiles.centre(tile), scene.tiles.scatter(tile));
   }
   region.plane = moments.fit()->plane;
-  const auto refined = refinePlane(scene.judge, region);
+  const auto refined = findSurface(scene.judge, region);
   ASSERT_TRUE(refined);
   EXPECT_LT(angleBetween(refined->plane, kFloor), 0.1 * M_PI / 180.0);
   const double off = std::min(std::abs(refined->plane.distance - 1.0),
@@ -186,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(Steps, TwoLevels,
 
 TEST(PlaneRefinement, ExactReadingsHaveTheSmallestLevel) {
   TileScene scene(floorDepth(), kCamera);
-  const auto refined = refinePlane(scene.judge, regionOf(scene, kFloor, kAll));
+  const auto refined = findSurface(scene.judge, regionOf(scene, kFloor, kAll));
   ASSERT_TRUE(refined);
   EXPECT_EQ(refined->level, 0.3F);
   EXPECT_EQ(refined->fits, 2U);
@@ -206,7 +206,7 @@ TEST(PlaneRefinement, TheLevelFollowsTheScatter) {
                  [&](int column, int row) { return row * 40 + column == i; });
     }
     TileScene scene(depth, kCamera);
-    const auto refined = refinePlane(scene.judge, regionOf(scene, facing(1.0), kAll));
+    const auto refined = findSurface(scene.judge, regionOf(scene, facing(1.0), kAll));
     ASSERT_TRUE(refined);
     EXPECT_NEAR(refined->level, 4.0 * scatter, 0.15 * 4.0 * scatter);
   }
@@ -216,9 +216,9 @@ TEST(PlaneRefinement, TooFewTilesDetermineNothing) {
   TileScene scene(floorDepth(), kCamera);
   const auto refined = [&](auto&& where) {
     const TileRegion region = regionOf(scene, kFloor, where);
-    EXPECT_EQ(refinePlane(scene.judge, region).has_value(),
+    EXPECT_EQ(findSurface(scene.judge, region).has_value(),
               fitPlane(scene.judge, region, kFloor, 3.0F).has_value());
-    return refinePlane(scene.judge, region).has_value();
+    return findSurface(scene.judge, region).has_value();
   };
   EXPECT_FALSE(refined([](int column, int row) { return column == 20 && row == 20; }));
   EXPECT_FALSE(refined([](int, int row) { return row == 20; }));

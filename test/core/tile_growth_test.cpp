@@ -188,10 +188,9 @@ TEST_F(TileGrowthTest, ARoughPatchAboveEpsilonDoesNotJoin) {
   EXPECT_EQ(grown(), 600U);
 }
 
-/// Where delta and epsilon are no limits, the tiles that are closer than gamma are the region.
+/// Where delta is no limit, the tiles whose means are closer than gamma surround the region.
 TEST_F(TileGrowthTest, GammaAloneDecidesOnATiltedNeighbour) {
   constexpr double kSlope = 0.05;
-  thresholds_.epsilon = {1.0, 0.0};
   const HessePlane tilted = facing(1.0, -kSlope, 0.0);  // z = 1 + 0.05 x
   paintTiles(depth_, kCamera, tilted, [](int column, int) { return column >= 20; });
   for (const double gamma : {0.004, 0.008, 0.012}) {
@@ -200,11 +199,11 @@ TEST_F(TileGrowthTest, GammaAloneDecidesOnATiltedNeighbour) {
     scene.judge.setPlane(kWall, {0.0, 0.0, 1.0});
     scene.judge.judgeAll();
     growth_.start(scene.tiles, scene.tile_angle);
-    const TileRegion& region = growth_.collect(scene.judge, scene.at(5, 15), scene.taken);
+    const TileRegion& region = growth_.surround(scene.judge, {scene.at(5, 15)}, scene.taken);
     int columns = 0;
     while (columns < 20) {
       const double middle = (columns + 0.5) * kSide;
-      if (kSlope * (middle + 2.0 * kSide / std::sqrt(12.0)) > gamma) break;
+      if (kSlope * middle > gamma) break;
       ++columns;
     }
     EXPECT_NEAR(static_cast<double>(region.tiles.size()), 30.0 * (20 + columns), 30.0);
@@ -247,20 +246,6 @@ TEST_F(TileGrowthTest, WhatWasGrownBeforeDoesNotMatter) {
   }
 }
 
-TEST_F(TileGrowthTest, CollectKeepsThePlaneAndItsEpsilon) {
-  const double sigma = 0.002 + 1.425e-3;
-  TileScene scene(depth_, kCamera);
-  growth_.start(scene.tiles, scene.tile_angle);
-  for (const auto& [off, expected] : {std::pair(0.9, 1200U), std::pair(1.1, 1U)}) {
-    scene.judgeBy(facing(1.0 + off * sigma));
-    const TileRegion& region = growth_.collect(scene.judge, scene.at(7, 3), scene.taken);
-    EXPECT_EQ(region.tiles.size(), expected);
-    EXPECT_EQ(region.tiles.front(), scene.at(7, 3));
-    EXPECT_EQ(growth_.fits(), 0U);
-    EXPECT_EQ(scene.judge.test().frame.origin.z(), static_cast<float>(1.0 + off * sigma));
-  }
-}
-
 TEST_F(TileGrowthTest, SurroundTakesWhatTouchesByDeltaAlone) {
   const double sigma = 0.002 + 1.425e-3;
   // 1.9 sigma off with noise: touches, is not on the plane, and far above epsilon.
@@ -273,7 +258,6 @@ TEST_F(TileGrowthTest, SurroundTakesWhatTouchesByDeltaAlone) {
   scene.judgeBy(kWall);
   ASSERT_EQ(scene.judge.verdict(scene.at(20, 15)), TileVerdict::kTouches);
   growth_.start(scene.tiles, scene.tile_angle);
-  EXPECT_EQ(growth_.collect(scene.judge, scene.at(5, 5), scene.taken).tiles.size(), 300U);
   const std::vector<std::size_t> first = {scene.at(5, 5), scene.at(2, 2)};
   EXPECT_EQ(growth_.surround(scene.judge, first, scene.taken).tiles.size(), 900U);
   EXPECT_EQ(growth_.fits(), 0U);
