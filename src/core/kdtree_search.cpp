@@ -42,7 +42,11 @@ std::size_t KdtreeSearch::availablePoints() const {
   return growing_.unclaimed() * pixels_per_point_;
 }
 
-bool KdtreeSearch::exhausted() const { return growing_.effort().tests >= points_.size(); }
+bool KdtreeSearch::exhausted() const {
+  constexpr std::size_t kSearches = 4;  // [#] a point; more find little each
+  return growing_.effort().tests >= points_.size() ||
+         growing_.effort().searches >= kSearches * points_.size();
+}
 
 /// Draws r2 and r3 from the window about r1.
 /// @return false where the window holds too few points.
