@@ -247,12 +247,13 @@ TEST(GridSearch, CollectsTheGroundOfAPlane) {
   paintTiles(depth, kCamera, ground(0.9, 0.8),
              [](int column, int row) { return row < 3 && column < 20; });
   const TileScene scene(depth, kCamera);
+  // Points of it in a few tiles, one of them on something else.
+  const std::vector<std::size_t> region = {scene.at(5, 10), scene.at(9, 20), scene.at(5, 1)};
   GridSearch grid;
   Parameters parameters;
   for (const bool join : {true, false}) {
     parameters.join_pieces = join;
-    grid.collectGround({scene.tiles, kCamera, 100}, parameters, floor,
-                       {scene.at(5, 20), scene.at(9, 25)});
+    grid.collectGround({scene.tiles, kCamera, 100}, parameters, floor, region);
     for (int row = 0; row < 30; ++row) {
       for (int column = 0; column < 40; ++column) {
         const bool left = column < 20 && row >= 3, right = column >= 26;

@@ -28,35 +28,39 @@ class GroundTilesTest : public testing::Test {
     paintTiles(depth_, kCamera, plane, where);
   }
   /// Collects the ground.
-  /// @return [#] of its tiles beyond the region.
+  /// @return [#] of its tiles beyond the first columns.
   std::size_t collect(bool join_pieces = true, std::size_t min_piece = 1) {
     TileScene scene(depth_, kCamera, thresholds_);
     scene.judge.setPlane(kGround, {0.0, 0.0, 1.0});
     ground_tiles_.start(scene.tiles, scene.tile_angle);
-    TileRegion region;
-    region.plane = kGround;
-    region.member.assign(scene.tiles.count.size(), 0);
-    for (int row = 0; row < 30; ++row) {
-      for (int column = 0; column < kRegion; ++column) {
-        if ((column + row) % 2 == 0) region.add(scene.at(column, row), scene.tiles);
-      }
-    }
-    ground_tiles_.collect(scene.judge, region, {join_pieces, min_piece});
-    // What hangs together with it is the region, too.
-    EXPECT_GE(region.tiles.size(), 30U * kRegion);
-    std::size_t count = 0;
+    region_ = TileRegion();
+    region_.plane = kGround;
+    region_.member.assign(scene.taken.size(), 0);
     for (std::size_t i = 0; i < scene.tiles.size(); ++i) {
-      const bool of_region = i % 40 < kRegion;
-      EXPECT_GE(ground_tiles_.ground()[i], of_region);
-      count += !of_region && ground_tiles_.ground()[i];
+      if (i % 40 < kRegion) region_.add(i, scene.tiles);
     }
+    ground_tiles_.collect(scene.judge, region_, {join_pieces, min_piece});
+    std::size_t count = 0, points = 0;
+    for (std::size_t i = 0; i < scene.tiles.size(); ++i) {
+      const bool first = i % 40 < kRegion;
+      EXPECT_GE(ground_tiles_.ground()[i], first || region_.member[i]);
+      count += !first && ground_tiles_.ground()[i];
+    }
+    for (const std::size_t tile : region_.tiles) {
+      points += static_cast<std::size_t>(scene.tiles.count[tile]);
+      EXPECT_TRUE(scene.judge.onPlane(tile));
+      EXPECT_EQ(region_.member[tile], 1);
+    }
+    EXPECT_EQ(region_.points, points);
     for (const std::size_t tile : ground_tiles_.pieces()) {
       EXPECT_EQ(ground_tiles_.ground()[tile], 1);
+      EXPECT_EQ(region_.member[tile], 0);
       EXPECT_TRUE(scene.judge.onPlane(tile));
     }
     return count;
   }
 
+  TileRegion region_;
   OwnedDepth<float> depth_;
   GrowthThresholds thresholds_ = growthThresholds({});
   GroundTiles ground_tiles_;
@@ -78,6 +82,7 @@ TEST_F(GroundTilesTest, APieceBeyondAGapJoinsIfItMay) {
 TEST_F(GroundTilesTest, WhatHangsTogetherWithTheRegionIsNoPiece) {
   paint(kGround, [](int c, int) { return c == kRegion || c == kRegion + 2; });
   EXPECT_EQ(collect(false), 60U);
+  EXPECT_EQ(region_.tiles.size(), 450U + 60U);
   EXPECT_TRUE(ground_tiles_.pieces().empty());
 }
 
@@ -154,6 +159,7 @@ TEST_F(GroundTilesTest, TilesThatTouchAreGroundAndNoPieces) {
     }
   }
   EXPECT_EQ(collect(), 30U);  // next to the region; the piece has no seed
+  EXPECT_EQ(region_.tiles.size(), 450U);
   EXPECT_TRUE(ground_tiles_.pieces().empty());
   paint(kGround, [](int c, int r) { return inside(c, r, 26, 2, 3, 4); });
   EXPECT_EQ(collect(), 30U + 24U + 12U);

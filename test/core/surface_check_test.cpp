@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "support/tile_scene.h"
@@ -18,8 +19,8 @@ enum class Kind { kOn, kFarther, kNearer, kNothing };
 /// A picture of tiles, each of its kind; those of the region are on the plane.
 class SurfaceCheckTest : public testing::Test {
  protected:
-  bool isSurface(const std::function<Kind(int, int)>& kind,
-                 const std::function<bool(int, int)>& member) {
+  bool isFilled(const std::function<Kind(int, int)>& kind,
+                const std::function<bool(int, int)>& member) {
     OwnedDepth<float> depth(kCamera.width, kCamera.height);
     const auto paint = [&](Kind which, const HessePlane& plane) {
       paintTiles(depth, kCamera, plane, [&](int c, int r) { return kind(c, r) == which; });
@@ -35,11 +36,11 @@ class SurfaceCheckTest : public testing::Test {
       }
     }
     scene.judge.setPlane(kWall, {0.0, 0.0, 2.0});
-    return check_.isSurface(scene.judge, region);
+    return check_.isFilled(scene.judge, region);
   }
   /// The same where the region is all that is on the plane.
-  bool isSurface(const std::function<Kind(int, int)>& kind) {
-    return isSurface(kind, [&](int c, int r) { return kind(c, r) == Kind::kOn; });
+  bool isFilled(const std::function<Kind(int, int)>& kind) {
+    return isFilled(kind, [&](int c, int r) { return kind(c, r) == Kind::kOn; });
   }
 
   SurfaceCheck check_;
@@ -50,7 +51,7 @@ bool inside(int column, int row, int left, int top, int width, int height) {
 }
 
 TEST_F(SurfaceCheckTest, AFilledSquareIs) {
-  EXPECT_TRUE(isSurface(
+  EXPECT_TRUE(isFilled(
       [](int c, int r) { return inside(c, r, 10, 8, 9, 9) ? Kind::kOn : Kind::kFarther; }));
 }
 
@@ -58,11 +59,11 @@ TEST_F(SurfaceCheckTest, AFilledSquareIs) {
 TEST_F(SurfaceCheckTest, ARingIsWhereHalfOfItLiesOnThePlane) {
   for (int hole = 12; hole <= 18; ++hole) {
     for (const Kind middle : {Kind::kFarther, Kind::kNearer, Kind::kNothing}) {
-      const bool surface = isSurface([&](int c, int r) {
+      const bool is_filled = isFilled([&](int c, int r) {
         if (!inside(c, r, 5, 5, 20, 20)) return Kind::kFarther;
         return inside(c, r, 6, 6, hole, hole) ? middle : Kind::kOn;
       });
-      EXPECT_EQ(surface, middle != Kind::kFarther || 2 * hole * hole <= 400) << hole;
+      EXPECT_EQ(filled, middle != Kind::kFarther || 2 * hole * hole <= 400) << hole;
     }
   }
 }
@@ -75,7 +76,7 @@ TEST_F(SurfaceCheckTest, ExactlyTheHalfIs) {
       const int number = (r - 10) * 10 + c - 15;
       return number > 20 && number <= 20 + others ? Kind::kFarther : Kind::kOn;
     };
-    EXPECT_EQ(isSurface(kind), others <= 50) << others;
+    EXPECT_EQ(isFilled(kind), others <= 50) << others;
   }
 }
 
@@ -83,16 +84,16 @@ TEST_F(SurfaceCheckTest, StripesAreNot) {
   const auto stripes = [](int period) {
     return [period](int c, int r) { return (c + r) % period == 0 ? Kind::kOn : Kind::kFarther; };
   };
-  EXPECT_TRUE(isSurface(stripes(1)));
-  EXPECT_TRUE(isSurface(stripes(2)));
-  EXPECT_FALSE(isSurface(stripes(3)));
+  EXPECT_TRUE(isFilled(stripes(1)));
+  EXPECT_TRUE(isFilled(stripes(2)));
+  EXPECT_FALSE(isFilled(stripes(3)));
 }
 
 TEST_F(SurfaceCheckTest, TilesOnThePlaneCountEvenWhereTheyAreNotOfTheRegion) {
   const auto edge = [](int c, int r) {
     return inside(c, r, 5, 5, 20, 20) && !inside(c, r, 6, 6, 18, 18);
   };
-  EXPECT_TRUE(isSurface([](int, int) { return Kind::kOn; }, edge));
+  EXPECT_TRUE(isFilled([](int, int) { return Kind::kOn; }, edge));
 }
 
 /// Twice the area of a triangle, > 0 where it turns to the left.
@@ -144,12 +145,12 @@ TEST_F(SurfaceCheckTest, TheHullIsTheConvexHull) {
       for (std::size_t i = farther; i < filled.size(); ++i) {
         kinds[static_cast<std::size_t>(filled[i].second * kColumns + filled[i].first)] = Kind::kOn;
       }
-      const bool surface =
-          isSurface([&](int c, int r) { return kinds[static_cast<std::size_t>(r * kColumns + c)]; },
-                    [&](int c, int r) {
-                      return std::count(corners.begin(), corners.end(), std::pair(c, r)) > 0;
-                    });
-      EXPECT_EQ(surface, 2 * farther <= all) << repeat << ": " << farther << " of " << all;
+      const bool is_filled =
+          isFilled([&](int c, int r) { return kinds[static_cast<std::size_t>(r * kColumns + c)]; },
+                   [&](int c, int r) {
+                     return std::count(corners.begin(), corners.end(), std::pair(c, r)) > 0;
+                   });
+      EXPECT_EQ(is_filled, 2 * farther <= all) << repeat << ": " << farther << " of " << all;
     }
   }
   EXPECT_GT(checked, 50);
@@ -179,8 +180,47 @@ TEST_F(SurfaceCheckTest, TooFewReadingsDoNotCount) {
         if (ring(column, row)) region.tiles.push_back(scene.at(column, row));
       }
     }
-    EXPECT_EQ(check_.isSurface(scene.judge, region), readings == 7);
+    EXPECT_EQ(check_.isFilled(scene.judge, region), readings == 7);
   }
+}
+
+/// Two planes that meet in the image's middle, or one plane and one tile of another.
+bool isFlat(double bend, bool rows, bool whole = true) {
+  OwnedDepth<float> depth(kCamera.width, kCamera.height);
+  const auto half = [&](double angle) {
+    return rows ? facing(1.0, 0.0, angle) : facing(1.0, angle, 0.0);
+  };
+  paintTiles(depth, kCamera, half(0.5 * bend), [](int, int) { return true; });
+  paintTiles(depth, kCamera, half(-0.5 * bend),
+             [&](int c, int r) { return whole && (rows ? r >= 15 : c >= 20); });
+  TileScene scene(depth, kCamera);
+  TileRegion region;
+  for (std::size_t i = 0; i < scene.tiles.size(); ++i) region.tiles.push_back(i);
+  return SurfaceCheck::isFlat(scene.judge, region);
+}
+
+/// Beyond two degrees, half of a sigma over a half's width turns each plane: of 20 x 30 tiles of
+/// 30.5 mm along the columns, and 40 x 15 along the rows, the second longest axis.
+TEST(SurfaceIsFlat, WhereItsHalvesHaveOnePlane) {
+  constexpr double kSigma = 0.002 + 1.425e-3, kSide = 8.0 / 262.5;
+  for (const bool rows : {false, true}) {
+    const double width = (rows ? 15.0 : 20.0) * kSide / std::sqrt(12.0);
+    const double limit = 2.0 * M_PI / 180.0 + 0.5 * std::sqrt(2.0) * std::atan(kSigma / width);
+    for (const double side : {-1.0, 1.0}) {
+      EXPECT_TRUE(isFlat(side * 0.97 * limit, rows)) << rows;
+      EXPECT_FALSE(isFlat(side * 1.03 * limit, rows)) << rows;
+      EXPECT_TRUE(isFlat(side * 0.5, rows, false)) << rows;
+    }
+  }
+}
+
+TEST(SurfaceIsFlat, WhereAHalfHasNoPlane) {
+  OwnedDepth<float> depth(kCamera.width, kCamera.height);
+  paintTiles(depth, kCamera, kWall, [](int, int) { return true; });
+  TileScene scene(depth, kCamera);
+  TileRegion region;
+  region.tiles = {scene.at(5, 5)};
+  EXPECT_TRUE(SurfaceCheck::isFlat(scene.judge, region));
 }
 
 }  // namespace
