@@ -63,7 +63,7 @@ TEST_F(SurfaceCheckTest, ARingIsWhereHalfOfItLiesOnThePlane) {
         if (!inside(c, r, 5, 5, 20, 20)) return Kind::kFarther;
         return inside(c, r, 6, 6, hole, hole) ? middle : Kind::kOn;
       });
-      EXPECT_EQ(filled, middle != Kind::kFarther || 2 * hole * hole <= 400) << hole;
+      EXPECT_EQ(is_filled, middle != Kind::kFarther || 2 * hole * hole <= 400) << hole;
     }
   }
 }
