@@ -10,7 +10,7 @@ namespace dominant_plane_detection {
 namespace {
 
 /// [-] Width of the weights in sigma(z) that look for the densest heights, and steps with it.
-constexpr float kWidth = 0.35F;
+constexpr float kWidth = 0.2F;
 constexpr int kModeSteps = 3;
 /// Planes through three of the region's tiles that are tried, on this many of the tiles. Three of
 /// them lie on a surface that holds half of the region with 1 - (7/8)^32 = 99 %.

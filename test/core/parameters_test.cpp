@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <regex>
 #include <set>
 #include <stdexcept>
 
@@ -21,6 +24,36 @@ TEST(Parameters, TableNamesAreUnique) {
     EXPECT_TRUE(names.insert(info.name).second) << info.name;
   });
   EXPECT_GT(names.size(), 20U);
+}
+
+/// What dynamic_reconfigure was given stands in a file that is written from the table and kept.
+TEST(Parameters, TheTableIsWhatItWasWhenTheConfigWasWritten) {
+  std::ifstream file(std::string(DPD_SOURCE) + "/cfg/PlaneDetection.cfg");
+  ASSERT_TRUE(file);
+  const std::string config((std::istreambuf_iterator<char>(file)), {});
+  const std::regex entry(
+      "gen\\.add\\(\"(\\w+)\", (\\w+), 0,\\s+\"\\[(.+)\\] (.+)\",\\s+([^,)]+)"
+      "(?:, ([^,)=]+), ([^,)]+))?");
+  std::sregex_iterator next(config.begin(), config.end(), entry);
+  const Parameters parameters;
+  visitParameters(parameters, [&](const ParameterInfo& info, const auto& value) {
+    ASSERT_NE(next, std::sregex_iterator()) << info.name;
+    const std::smatch& found = *next++;
+    EXPECT_EQ(found[1], info.name);
+    EXPECT_EQ(found[3], info.unit) << info.name;
+    EXPECT_EQ(found[4], info.text) << info.name;
+    using T = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<T, int> || std::is_same_v<T, double>) {
+      EXPECT_EQ(std::stod(found[5]), static_cast<double>(value)) << info.name;
+      EXPECT_EQ(std::stod(found[6]), info.min) << info.name;
+      EXPECT_EQ(std::stod(found[7]), info.max) << info.name;
+    } else if constexpr (std::is_same_v<T, bool>) {
+      EXPECT_EQ(found[5], value ? "True" : "False") << info.name;
+    } else {
+      EXPECT_EQ(found[5], "\"grid\"") << info.name;
+    }
+  });
+  EXPECT_EQ(next, std::sregex_iterator());
 }
 
 TEST(Parameters, AllErrorsAtOnceWithNameRangeAndUnit) {
