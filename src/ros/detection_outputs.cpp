@@ -106,8 +106,8 @@ void DetectionOutputs::prepareOverlay(const DetectionInputs::Frame& frame,
 
 void DetectionOutputs::publishWaitingOverlay(const DetectionInputs& inputs) {
   if (!waiting_) return;
-  const auto picture =
-      inputs.picture(waiting_->header, waiting_->detection.image_width, waiting_->detection.image_height);
+  const auto picture = inputs.picture(waiting_->header, waiting_->detection.image_width,
+                                      waiting_->detection.image_height);
   if (picture) publishOverlay(picture);
 }
 

@@ -47,6 +47,26 @@ OwnedDepth<float> everywhere(const HessePlane& plane) {
   return depth;
 }
 
+/// Whatever the region was grown from, the plane is the least squares fit of its tiles.
+TEST(GridSearch, ThePlaneIsFittedToItsTiles) {
+  const HessePlane floor = ground(0.9, 1.0);
+  OwnedDepth<float> depth = everywhere(floor);
+  addNoise(
+      depth, [](double z) { return 1e-3 * z * z; }, 4);
+  const Result result = search(depth, kCamera);
+  ASSERT_TRUE(result.selection.found());
+  const TileScene scene(depth, kCamera);
+  PlaneMoments moments;
+  for (std::size_t tile = 0; tile < scene.tiles.size(); ++tile) {
+    if (!result.ground[tile]) continue;
+    const double sigma = NoiseModel().sigma(static_cast<double>(scene.tiles.z[tile]));
+    moments.add(static_cast<double>(scene.tiles.count[tile]), scene.tiles.centre(tile),
+                scene.tiles.scatter(tile), 1.0 / (sigma * sigma));
+  }
+  EXPECT_LT(angleBetween(result.selection.plane(), moments.fit()->plane), 2e-5);
+  EXPECT_NEAR(result.selection.plane().distance, moments.fit()->plane.distance, 2e-5);
+}
+
 TEST(GridSearch, AFullFloorIsFoundAtOnce) {
   const HessePlane floor = ground(0.9, 1.0);
   const Result result = search(everywhere(floor), kCamera);

@@ -38,7 +38,8 @@ TEST(Parameters, TheTableIsWhatItWasWhenTheConfigWasWritten) {
   const Parameters parameters;
   visitParameters(parameters, [&](const ParameterInfo& info, const auto& value) {
     ASSERT_NE(next, std::sregex_iterator()) << info.name;
-    const std::smatch& found = *next++;
+    const std::smatch found = *next;
+    ++next;
     EXPECT_EQ(found[1], info.name);
     EXPECT_EQ(found[3], info.unit) << info.name;
     EXPECT_EQ(found[4], info.text) << info.name;

@@ -188,6 +188,18 @@ TEST_F(TileGrowthTest, ARoughPatchAboveEpsilonDoesNotJoin) {
   EXPECT_EQ(grown(), 600U);
 }
 
+/// Neighbours in the image with readings at their far ends only: 12 pixels, 46 mm, are between
+/// them.
+TEST_F(TileGrowthTest, DeltaDecidesBetweenNeighbours) {
+  for (int v = 0; v < 240; ++v) {
+    for (int u = 160 - 6; u < 160 + 6; ++u) depth_.at(u, v) = 0.0F;
+  }
+  thresholds_.delta = {0.01, 0.0};
+  EXPECT_EQ(grown(), 600U);
+  thresholds_.delta = {0.04, 0.0};
+  EXPECT_EQ(grown(), 1200U);
+}
+
 /// Where delta is no limit, the tiles whose means are closer than gamma surround the region.
 TEST_F(TileGrowthTest, GammaAloneDecidesOnATiltedNeighbour) {
   constexpr double kSlope = 0.05;
