@@ -27,9 +27,6 @@ constexpr double kMinCondition = 1e-7;
 constexpr float kQuartile = 0.3186F;
 /// [-] Standard deviations that belong to the surface; the scatter may double with distance.
 constexpr float kScatters = 4.0F;
-/// [#] Most levels that are tried, and how much larger than the last the next one has to be.
-constexpr int kLevels = 4;
-constexpr float kSameLevel = 1.15F;
 /// [-] Smallest level in sigma(z); the scatter of exact readings is 0.
 constexpr float kMinLevel = 0.3F;
 
@@ -151,20 +148,12 @@ std::optional<SurfacePlane> findSurface(const TileJudge& judge, const TileRegion
     surface.plane = next->plane;
     final = next->final;
   }
-  // A smooth error is densest somewhere, too: as long as what is near is one surface with what is
-  // beyond, the scatter about their common plane is larger than about the densest part alone.
-  surface.level = kMinLevel;
-  for (int i = 0; i < kLevels; ++i) {
-    const float scatter = sample.scatter(surface.plane.normal.cast<float>(),
-                                         static_cast<float>(surface.plane.distance));
-    if (i > 0 && kScatters * scatter < kSameLevel * surface.level) break;
-    surface.level = std::max(surface.level, kScatters * scatter);
-    const auto fit = fitPlane(judge, region, surface.plane, surface.level);
-    if (!fit) return std::nullopt;
-    surface.plane = fit->plane;
-    surface.fits += fit->fits;
-  }
-  return surface;
+  const float scatter = sample.scatter(surface.plane.normal.cast<float>(),
+                                       static_cast<float>(surface.plane.distance));
+  surface.level = std::max(kMinLevel, kScatters * scatter);
+  const auto fit = fitPlane(judge, region, surface.plane, surface.level);
+  if (!fit) return std::nullopt;
+  return SurfacePlane{fit->plane, surface.level, surface.fits + fit->fits};
 }
 
 }  // namespace dominant_plane_detection
