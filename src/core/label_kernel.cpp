@@ -38,9 +38,10 @@ struct VectorSums {
 };
 
 /// Labels the pixels of one vector.
-/// @param near_ground 1 where pixels within the band are ground, otherwise 0.
-HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, std::uint8_t near_ground,
-                            VectorSums& sums, std::uint8_t* labels) {
+/// @tparam kNearGround whether pixels within the band are ground; otherwise they are unknown.
+template <bool kNearGround>
+HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, VectorSums& sums,
+                            std::uint8_t* labels) {
   const Floats d;
   const hn::Rebind<std::int32_t, Floats> wide;
   const hn::Rebind<std::uint8_t, Floats> bytes;
@@ -53,18 +54,25 @@ HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, std::u
   const auto constant = [&](Label label) {
     return hn::Set(wide, static_cast<std::int32_t>(label));
   };
-  static_assert(static_cast<int>(Label::kUnknown) == 0 && static_cast<int>(Label::kGround) == 1,
-                "near_ground is the label");
   const auto off_plane = hn::IfThenElse(hn::RebindMask(wide, hn::Gt(height, hn::Zero(d))),
                                         constant(Label::kObstacle), constant(Label::kDropOff));
-  const auto any = hn::IfThenElse(hn::RebindMask(wide, in_band),
-                                  hn::Set(wide, std::int32_t{near_ground}), off_plane);
+  const auto any =
+      hn::IfThenElse(hn::RebindMask(wide, in_band),
+                     constant(kNearGround ? Label::kGround : Label::kUnknown), off_plane);
   const auto label = hn::IfThenElseZero(hn::RebindMask(wide, points.valid), any);
   hn::StoreU(hn::DemoteTo(bytes, label), bytes, labels);
-  const auto ground = hn::IfThenElseZero(in_band, hn::Set(d, static_cast<float>(near_ground)));
-  sums.ground = hn::Add(sums.ground, ground);
-  const auto counted = hn::IfThenElseZero(in_band, height);  // without a reading it is not a number
-  sums.square_height = hn::MulAdd(hn::Mul(ground, counted), counted, sums.square_height);
+  if (!kNearGround) return;
+  sums.ground = hn::Add(sums.ground, hn::IfThenElseZero(in_band, hn::Set(d, 1.0F)));
+  // Without a reading the height is not a number.
+  const auto counted = hn::IfThenElseZero(in_band, height);
+  sums.square_height = hn::MulAdd(counted, counted, sums.square_height);
+}
+
+/// The same, near ground (1) or not (0): mostly as the vector before.
+HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, std::uint8_t near_ground,
+                            VectorSums& sums, std::uint8_t* labels) {
+  near_ground ? labelVector<true>(points, rule, sums, labels)
+              : labelVector<false>(points, rule, sums, labels);
 }
 
 template <bool kSeparable, typename Pixel>
