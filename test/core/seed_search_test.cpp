@@ -46,6 +46,15 @@ TEST(SeedOrder, OffsetsAreAnglesNotPixels) {
   EXPECT_EQ(firstGroup(5, 5, up, {250.0, 500.0}).count(right_of_bottom_middle), 0U);
 }
 
+TEST(SeedOrder, FiveDegreesFromTheAxisAreWhereItBegins) {
+  for (const double degrees : {-6.0, -4.0, 4.0, 6.0}) {
+    const double angle = degrees * M_PI / 180.0;
+    SeedOrder order;
+    order.build(40, 30, {500.0, 500.0}, {0.0, -std::sin(angle), -std::cos(angle)});
+    EXPECT_EQ(order.firstGroup(), std::abs(degrees) < 5.0 ? 1200U : 600U) << degrees;
+  }
+}
+
 TEST(SeedOrder, LookingStraightDownNoHalfIsLower) {
   EXPECT_EQ(firstGroup(4, 3, {0.0, 0.0, -1.0}).size(), 12U);
   EXPECT_EQ(firstGroup(4, 3, {0.0, -std::sin(0.07), std::cos(0.07)}).size(), 12U);
