@@ -102,5 +102,26 @@ TEST(CameraModel, KnowsWhatCannotBeACamera) {
   EXPECT_FALSE(camera.valid());
 }
 
+TEST(CameraModel, IsEqualInEveryNumberOrNotAtAll) {
+  const CameraModel camera;
+  EXPECT_EQ(camera.width + camera.height, 0);
+  EXPECT_EQ(camera.fx + camera.fy + camera.cx + camera.cy, 0.0);
+  EXPECT_TRUE(camera == CameraModel());
+  const auto expectDifferent = [&](auto change) {
+    CameraModel other = camera;
+    change(other);
+    EXPECT_TRUE(camera != other);
+    EXPECT_FALSE(camera == other);
+  };
+  expectDifferent([](CameraModel& c) { c.width = 1; });
+  expectDifferent([](CameraModel& c) { c.height = 1; });
+  expectDifferent([](CameraModel& c) { c.fx = 1.0; });
+  expectDifferent([](CameraModel& c) { c.fy = 1.0; });
+  expectDifferent([](CameraModel& c) { c.cx = 1.0; });
+  expectDifferent([](CameraModel& c) { c.cy = 1.0; });
+  expectDifferent([](CameraModel& c) { c.distortion = DistortionModel::kPlumbBob; });
+  expectDifferent([](CameraModel& c) { c.coefficients[7] = 1.0; });
+}
+
 }  // namespace
 }  // namespace dominant_plane_detection

@@ -206,6 +206,17 @@ TEST(Detector, TheWorkIsCounted) {
   EXPECT_LT(one.fits, 40U);
   const Effort none = detector.detect(OwnedDepth<std::uint16_t>(640, 480).view(), camera).effort;
   EXPECT_EQ(none.seeds + none.regions + none.tests + none.joined + none.fits, 0U);
+  // A floor that leaves more than it has, in noise that no region grows from: all seeds are tried,
+  // but as ground was found not once more.
+  OwnedDepth<std::uint16_t> half = floor;
+  std::mt19937 generator(3);
+  for (int v = 0; v < 300; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      half.at(u, v) = static_cast<std::uint16_t>(600 + generator() % 3000);
+    }
+  }
+  ASSERT_TRUE(detector.detect(half.view(), camera).found());
+  EXPECT_EQ(detector.detect(half.view(), camera).effort.seeds, 64U);
   // Tilted seeds are not grown while ground is looked for; then the wall is grown once, to say why.
   EXPECT_EQ(detector.detect(wall.view(), camera).effort.regions, 1U);
 }

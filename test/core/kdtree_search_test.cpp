@@ -188,5 +188,34 @@ TEST_P(HardImage, CostsABoundedNumberOfTestsAndSearches) {
   }
 }
 
+/// The tiles in which the floor's points lie, whatever was searched before.
+TEST(KdtreeSearch, TellsTheTilesOfTheRegion) {
+  const auto floor_below = [](int from) {
+    return draw([from](int u, int v) {
+      const Eigen::Vector2d ray = testCamera(kWidth, kHeight).ray({u, v});
+      return v >= from ? 0.5 / (ray.y() * std::cos(0.6) + std::sin(0.6)) : 0.0;
+    });
+  };
+  KdtreeSearch kdtree;
+  RayTable rays;
+  rays.build(testCamera(kWidth, kHeight));
+  for (const int from : {80, 160, 120}) {
+    const Image image = floor_below(from);
+    const DepthView view = image.view();
+    PlaneSelection selection({kUp, 1.05, 0.0, 10.0, 100});
+    Effort effort;
+    Parameters parameters;
+    parameters.range_min = 0.05;
+    kdtree.run({view, rays, {1.0F, 0.05F, 4.0F}}, parameters, selection, effort);
+    ASSERT_TRUE(selection.found());
+    std::vector<std::size_t> expected;
+    for (std::size_t tile = static_cast<std::size_t>(from) / 8 * 40; tile < 1200; ++tile) {
+      expected.push_back(tile);
+    }
+    EXPECT_EQ(kdtree.regionTiles(), expected) << from;
+    EXPECT_EQ(effort.joined, selection.points() / 4);
+  }
+}
+
 }  // namespace
 }  // namespace dominant_plane_detection

@@ -60,6 +60,27 @@ TEST(SeedOrder, LookingStraightDownNoHalfIsLower) {
   EXPECT_EQ(firstGroup(4, 3, {0.0, -std::sin(0.07), std::cos(0.07)}).size(), 12U);
 }
 
+/// What is built is kept as long as nothing changes, and no longer.
+TEST(SeedOrder, FollowsEachChange) {
+  SeedOrder order;
+  const Eigen::Vector3d slanting = Eigen::Vector3d(1.0, -1.0, 0.0).normalized();
+  const auto expectFresh = [&](int columns, int rows, const Eigen::Vector2d& focal,
+                               const Eigen::Vector3d& up) {
+    SeedOrder fresh;
+    fresh.build(columns, rows, focal, up);
+    order.build(columns, rows, focal, up);
+    EXPECT_EQ(order.cells(), fresh.cells());
+    EXPECT_EQ(order.firstGroup(), fresh.firstGroup());
+  };
+  expectFresh(7, 5, {500.0, 500.0}, slanting);
+  expectFresh(7, 5, {500.0, 100.0}, slanting);
+  expectFresh(7, 5, {500.0, 100.0}, kUp);
+  expectFresh(5, 7, {500.0, 100.0}, kUp);
+  expectFresh(5, 4, {500.0, 100.0}, kUp);
+  expectFresh(6, 4, {500.0, 100.0}, kUp);
+  EXPECT_EQ(SeedOrder().cells().size() + SeedOrder().firstGroup(), 0U);
+}
+
 TEST(SeedOrder, HoldsEachCellOnce) {
   SeedOrder order;
   order.build(7, 5, kSquare, Eigen::Vector3d(0.3, -0.9, 0.1).normalized());

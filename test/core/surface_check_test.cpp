@@ -14,7 +14,7 @@ const CameraModel kCamera = testCamera(320, 240);
 constexpr int kColumns = 40, kRows = 30;
 const HessePlane kWall = facing(2.0);
 
-enum class Kind { kOn, kFarther, kNearer, kNothing };
+enum class Kind { kOn, kFarther, kNearer, kSteep, kNothing };
 
 /// A picture of tiles, each of its kind; those of the region are on the plane.
 class SurfaceCheckTest : public testing::Test {
@@ -28,6 +28,13 @@ class SurfaceCheckTest : public testing::Test {
     paint(Kind::kOn, kWall);
     paint(Kind::kFarther, facing(3.0));
     paint(Kind::kNearer, facing(1.0));
+    // Ramps of 16 cm in each tile, their middles on the plane.
+    for (int v = 0; v < kCamera.height; ++v) {
+      for (int u = 0; u < kCamera.width; ++u) {
+        if (kind(u / 8, v / 8) != Kind::kSteep) continue;
+        depth.at(u, v) = 2.0F + 0.02F * (static_cast<float>(u % 8) - 3.5F);
+      }
+    }
     TileScene scene(depth, kCamera);
     TileRegion region;
     for (int row = 0; row < kRows; ++row) {
@@ -48,6 +55,17 @@ class SurfaceCheckTest : public testing::Test {
 
 bool inside(int column, int row, int left, int top, int width, int height) {
   return column >= left && column < left + width && row >= top && row < top + height;
+}
+
+TEST_F(SurfaceCheckTest, WhatCrossesThePlaneHidesNothing) {
+  for (const int hole : {12, 16}) {
+    EXPECT_EQ(isFilled([&](int c, int r) {
+                const int from = (20 - hole) / 2;
+                if (!inside(c, r, 10, 5, 20, 20)) return Kind::kNothing;
+                return inside(c, r, 10 + from, 5 + from, hole, hole) ? Kind::kSteep : Kind::kOn;
+              }),
+              2 * hole * hole <= 400);
+  }
 }
 
 TEST_F(SurfaceCheckTest, AFilledSquareIs) {

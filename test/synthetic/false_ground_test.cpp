@@ -114,7 +114,7 @@ std::vector<Levels> levels() {
 }
 
 TEST(FalseGround, NoPlaneBetweenTwoLevels) {
-  const int runs = longForm(2, 30);
+  const int runs = longForm(10, 30);
   for (const Levels& level : levels()) {
     const Rendering rendering = seen(level.scene);
     for (int run = 0; run < runs; ++run) {
