@@ -190,6 +190,7 @@ TEST(Detector, BadInputIsExplained) {
   expectBad(view, camera, "8192");
   EXPECT_TRUE(detector.detect(view, camera).labels.empty());
   EXPECT_EQ(detector.detect(view, camera).image_width, 0);
+  EXPECT_EQ(detector.detect(view, camera).image_height, 0);
   // An image that is there is black.
   EXPECT_EQ(detector.detect(depth.view(), testCamera(320, 240)).labels,
             std::vector<std::uint8_t>(640 * 480, 0));

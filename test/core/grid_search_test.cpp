@@ -67,6 +67,17 @@ TEST(GridSearch, ThePlaneIsFittedToItsTiles) {
   EXPECT_NEAR(result.selection.plane().distance, moments.fit()->plane.distance, 2e-5);
 }
 
+/// Once the floor has more than all the rest no seed is tried any more.
+TEST(GridSearch, EndsWhenNothingLargerCanBeLeft) {
+  const HessePlane floor = ground(0.9, 1.0);
+  OwnedDepth<float> depth = everywhere(floor);
+  paintTiles(depth, kCamera, facing(1.5), [](int, int row) { return row < 12; });
+  const Result result = search(depth, kCamera);
+  ASSERT_TRUE(result.selection.found());
+  EXPECT_NEAR(static_cast<double>(result.tiles()), 18.0 * 40.0, 80.0);
+  EXPECT_LE(result.effort.seeds, 3U);
+}
+
 TEST(GridSearch, AFullFloorIsFoundAtOnce) {
   const HessePlane floor = ground(0.9, 1.0);
   const Result result = search(everywhere(floor), kCamera);

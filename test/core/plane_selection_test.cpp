@@ -1,0 +1,91 @@
+#include "core/plane_selection.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace dominant_plane_detection {
+namespace {
+
+const PlaneLimits kLimits{{0.0, -1.0, 0.0}, 1.0, 0.5, 2.0, 100};
+
+/// A plane whose normal is turned from up.
+HessePlane plane(double tilt, double height) {
+  return {{0.0, std::cos(tilt), std::sin(tilt)}, height};
+}
+
+std::string reason(const PlaneSelection& selection, std::size_t seeds = 3) {
+  std::array<char, 256> sentence{};
+  selection.explain(seeds, sentence);
+  return sentence.data();
+}
+
+TEST(PlaneSelection, TheLargestThatCanBeGroundWins) {
+  PlaneSelection selection(kLimits);
+  EXPECT_FALSE(selection.found());
+  EXPECT_EQ(selection.toBeat(), 100U);
+  EXPECT_EQ(selection.consider(plane(0.1, 1.0), 300), State::kFound);
+  EXPECT_EQ(selection.consider(plane(0.2, 1.1), 299), State::kFound);
+  EXPECT_EQ(selection.consider(plane(0.2, 1.1), 300), State::kFound);
+  EXPECT_EQ(selection.consider(plane(1.2, 1.0), 500), State::kTooTilted);
+  EXPECT_TRUE(selection.found());
+  EXPECT_EQ(selection.plane().distance, 1.0);
+  EXPECT_EQ(selection.points(), 300U);
+  EXPECT_EQ(selection.toBeat(), 300U);
+  EXPECT_EQ(selection.consider(plane(0.3, 1.2), 301), State::kFound);
+  EXPECT_EQ(selection.plane().distance, 1.2);
+}
+
+TEST(PlaneSelection, EachLimitIsOne) {
+  PlaneSelection selection(kLimits);
+  EXPECT_EQ(selection.consider(plane(0.0, 1.0), 99), State::kTooSmall);
+  EXPECT_EQ(selection.consider(plane(0.0, 1.0), 100), State::kFound);
+  EXPECT_EQ(selection.consider(plane(0.999, 1.0), 100), State::kFound);
+  EXPECT_EQ(selection.consider(plane(1.001, 1.0), 100), State::kTooTilted);
+  EXPECT_EQ(selection.consider(plane(-1.001, 1.0), 100), State::kTooTilted);
+  EXPECT_EQ(selection.consider(plane(0.0, 0.499), 100), State::kOutOfHeightRange);
+  EXPECT_EQ(selection.consider(plane(0.0, 0.501), 100), State::kFound);
+  EXPECT_EQ(selection.consider(plane(0.0, 1.999), 100), State::kFound);
+  EXPECT_EQ(selection.consider(plane(0.0, 2.001), 100), State::kOutOfHeightRange);
+  // Even without a limit a plane has points.
+  PlaneLimits none = kLimits;
+  none.min_points = 0;
+  EXPECT_EQ(PlaneSelection(none).consider(plane(0.0, 1.0), 0), State::kTooSmall);
+  EXPECT_EQ(PlaneSelection(none).minPoints(), 1U);
+}
+
+TEST(PlaneSelection, SeedsAreClearlyTooTiltedTwentyDegreesBeyond) {
+  const PlaneSelection selection(kLimits);
+  EXPECT_FALSE(selection.clearlyTooTilted(plane(1.0, 1.0)));
+  EXPECT_FALSE(selection.clearlyTooTilted(plane(1.34, 1.0)));
+  EXPECT_TRUE(selection.clearlyTooTilted(plane(1.36, 1.0)));
+}
+
+/// The largest plane that was refused is why there is none.
+TEST(PlaneSelection, TheReasonIsThatOfTheLargest) {
+  PlaneSelection selection(kLimits);
+  EXPECT_EQ(selection.refusal(), State::kNoRegion);
+  EXPECT_EQ(reason(selection, 7), "None of 7 seeds lies on a plane.");
+  selection.consider(plane(0.0, 1.0), 50);
+  EXPECT_EQ(selection.refusal(), State::kTooSmall);
+  EXPECT_EQ(reason(selection),
+            "The largest plane holds 50 pixels, fewer than the required 100 (min_share, "
+            "min_patch).");
+  selection.consider(plane(1.25, 1.0), 200);
+  EXPECT_EQ(selection.refusal(), State::kTooTilted);
+  EXPECT_EQ(reason(selection),
+            "The largest plane is tilted by 1.250 rad from the expected up direction, more than "
+            "max_tilt = 1.000 rad.");
+  selection.consider(plane(0.0, 3.0), 150);
+  EXPECT_EQ(selection.refusal(), State::kTooTilted);
+  selection.consider(plane(0.0, 3.0), 250);
+  EXPECT_EQ(selection.refusal(), State::kOutOfHeightRange);
+  EXPECT_EQ(reason(selection),
+            "The camera is 3.000 m over the largest plane, expected 0.500 to 2.000 m.");
+  selection.consider(plane(1.5, 1.0), 10);
+  EXPECT_EQ(selection.refusal(), State::kOutOfHeightRange);
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection
