@@ -53,8 +53,12 @@ void GridSearch::search(const Parameters& parameters, Seeds seeds) {
 void GridSearch::collectGround(const Image& image, const Parameters& parameters,
                                const HessePlane& plane, const std::vector<std::size_t>& region) {
   start(image, parameters);
-  collectSurface({plane, std::numeric_limits<float>::infinity(), 0}, region);
-  ground_ = ground_tiles_.ground();
+  const bool any = collectSurface({plane, std::numeric_limits<float>::infinity(), 0}, region);
+  if (any) {
+    ground_ = ground_tiles_.ground();
+  } else {
+    ground_.assign(tiles_->count.size(), 0);
+  }
 }
 
 void GridSearch::take(std::size_t tile) {

@@ -175,6 +175,7 @@ int TileGrowth::reachOfRegion(const TileJudge& judge) const {
 /// has no reading, or stands before the plane. Only the rims of what is left need to be looked at.
 /// @return whether there were any.
 bool TileGrowth::bridgeGaps(const Call& call) {
+  if (places_.empty()) return false;
   const auto columns = static_cast<std::size_t>(columns_);
   const auto rowOf = [&](std::size_t open) { return static_cast<int>(open / (columns + 2)) - 1; };
   const auto [top, bottom] = std::minmax_element(places_.begin(), places_.end());

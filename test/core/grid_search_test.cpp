@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -269,6 +270,18 @@ TEST(GridSearch, PiecesBeyondAGapJoinAndTurnThePlane) {
   const Result between = search(depth, kCamera, parameters);
   ASSERT_TRUE(between.selection.found());
   EXPECT_GT(between.selection.points(), 20U * 30U * 64U);
+}
+
+/// No tile lies on the plane: nothing is left of an earlier image.
+TEST(GridSearch, APlaneThatNothingLiesOnHasNoGround) {
+  const OwnedDepth<float> depth = everywhere(ground(0.9, 1.0));
+  const TileScene scene(depth, kCamera);
+  GridSearch grid;
+  grid.collectGround({scene.tiles, kCamera, 100}, {}, ground(0.9, 1.0), {scene.at(5, 20)});
+  EXPECT_EQ(std::count(grid.ground().begin(), grid.ground().end(), 1), 1200);
+  grid.collectGround({scene.tiles, kCamera, 100}, {}, ground(0.9, 0.5), {scene.at(5, 20)});
+  EXPECT_EQ(grid.ground().size(), scene.tiles.count.size());
+  EXPECT_EQ(std::count(grid.ground().begin(), grid.ground().end(), 1), 0);
 }
 
 TEST(GridSearch, CollectsTheGroundOfAPlane) {
