@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 #include "support/tile_scene.h"
 
@@ -270,6 +271,52 @@ TEST(GridSearch, PiecesBeyondAGapJoinAndTurnThePlane) {
   const Result between = search(depth, kCamera, parameters);
   ASSERT_TRUE(between.selection.found());
   EXPECT_GT(between.selection.points(), 20U * 30U * 64U);
+}
+
+/// A comb of floor before what is farther and lies on nothing: less than half of its hull is
+/// filled.
+TEST(GridSearch, StripesAreNoGround) {
+  const HessePlane floor = ground(0.9, 1.0);
+  for (const int gap : {3, 8}) {
+    OwnedDepth<float> depth = everywhere(floor);
+    std::mt19937 generator(2);
+    std::uniform_real_distribution<float> farther(1.3F, 1.9F);
+    for (int v = 0; v < kCamera.height; ++v) {
+      for (int u = 0; u < kCamera.width; ++u) {
+        const int column = u / 8, row = v / 8;
+        const bool comb = (row >= 14 && row < 17) || column % (3 + gap) < 3;
+        if (!comb) depth.at(u, v) *= farther(generator);
+      }
+    }
+    const Result result = search(depth, kCamera);
+    EXPECT_EQ(result.selection.found(), gap == 3) << gap;
+    if (gap == 8) {
+      EXPECT_EQ(result.selection.refusal(), State::kNoRegion);
+    }
+  }
+}
+
+/// The top of a ball, seen from above, has a cap within gamma of a plane; that of a flat disc does
+/// not bend.
+TEST(GridSearch, TheCapOfABallIsNoGround) {
+  Parameters parameters;
+  parameters.expected_up = {0.0, 0.0, -1.0};
+  for (const bool ball : {true, false}) {
+    constexpr double kRadius = 0.5;  // [m]
+    OwnedDepth<float> depth(kCamera.width, kCamera.height);
+    for (int v = 0; v < kCamera.height; ++v) {
+      for (int u = 0; u < kCamera.width; ++u) {
+        const Eigen::Vector2d ray = kCamera.ray({u, v});
+        // On (z rx)^2 + (z ry)^2 + (z - 1.5)^2 = R^2, the near side.
+        const double a = ray.squaredNorm() + 1.0, c = 1.5 * 1.5 - kRadius * kRadius;
+        const double root = 1.5 * 1.5 - a * c;
+        if (root < 0.0) continue;
+        depth.at(u, v) = ball ? static_cast<float>((1.5 - std::sqrt(root)) / a) : 1.0F;
+      }
+    }
+    // A cap of 2,000 pixels is 12 cm wide and bends by 14 degrees; one of 500 might be noise.
+    EXPECT_EQ(search(depth, kCamera, parameters, 2000).selection.found(), !ball);
+  }
 }
 
 /// No tile lies on the plane: nothing is left of an earlier image.

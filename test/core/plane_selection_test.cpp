@@ -48,6 +48,10 @@ TEST(PlaneSelection, EachLimitIsOne) {
   EXPECT_EQ(selection.consider(plane(0.0, 0.501), 100), State::kFound);
   EXPECT_EQ(selection.consider(plane(0.0, 1.999), 100), State::kFound);
   EXPECT_EQ(selection.consider(plane(0.0, 2.001), 100), State::kOutOfHeightRange);
+  PlaneLimits level = kLimits;
+  level.max_tilt = 0.0;
+  level.min_height = level.max_height = 1.0;
+  EXPECT_EQ(PlaneSelection(level).consider(plane(0.0, 1.0), 100), State::kFound);
   // Even without a limit a plane has points.
   PlaneLimits none = kLimits;
   none.min_points = 0;
@@ -78,6 +82,8 @@ TEST(PlaneSelection, TheReasonIsThatOfTheLargest) {
             "The largest plane is tilted by 1.250 rad from the expected up direction, more than "
             "max_tilt = 1.000 rad.");
   selection.consider(plane(0.0, 3.0), 150);
+  EXPECT_EQ(selection.refusal(), State::kTooTilted);
+  selection.consider(plane(0.0, 3.0), 200);  // as large: the first stays
   EXPECT_EQ(selection.refusal(), State::kTooTilted);
   selection.consider(plane(0.0, 3.0), 250);
   EXPECT_EQ(selection.refusal(), State::kOutOfHeightRange);
