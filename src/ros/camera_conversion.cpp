@@ -35,6 +35,16 @@ bool readDistortion(const sensor_msgs::CameraInfo& info, CameraModel& camera, st
 
 }  // namespace
 
+ImageSize imageSize(const sensor_msgs::CameraInfo& info) {
+  const auto& roi = info.roi;
+  const auto side = [](std::uint32_t region, std::uint32_t offset, std::uint32_t all,
+                       std::uint32_t binning) {
+    return (region != 0 ? region : all - std::min(offset, all)) / std::max(binning, 1U);
+  };
+  return {side(roi.width, roi.x_offset, info.width, info.binning_x),
+          side(roi.height, roi.y_offset, info.height, info.binning_y)};
+}
+
 std::optional<CameraModel> cameraModel(const sensor_msgs::CameraInfo& info, bool rectified,
                                        std::string& error) {
   CameraModel camera;
@@ -51,14 +61,10 @@ std::optional<CameraModel> cameraModel(const sensor_msgs::CameraInfo& info, bool
     if (!readDistortion(info, camera, error)) return std::nullopt;
   }
   const auto& roi = info.roi;
-  const std::uint32_t width =
-      roi.width != 0 ? roi.width : info.width - std::min(roi.x_offset, info.width);
-  const std::uint32_t height =
-      roi.height != 0 ? roi.height : info.height - std::min(roi.y_offset, info.height);
   const std::uint32_t binning_x = std::max(info.binning_x, 1U);
   const std::uint32_t binning_y = std::max(info.binning_y, 1U);
-  camera.width = static_cast<int>(width / binning_x);
-  camera.height = static_cast<int>(height / binning_y);
+  camera.width = static_cast<int>(imageSize(info).width);
+  camera.height = static_cast<int>(imageSize(info).height);
   // Same transformation as image_geometry's PinholeCameraModel: offset first, then scale.
   camera.fx /= binning_x;
   camera.fy /= binning_y;

@@ -2,6 +2,7 @@
 
 #include <sensor_msgs/CameraInfo.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -9,12 +10,20 @@
 
 namespace dominant_plane_detection {
 
+struct ImageSize {
+  std::uint32_t width;   ///< [px]
+  std::uint32_t height;  ///< [px]
+};
+
+/// @return of the images that come with a camera_info: binning and region of interest are taken off
+/// (REP 104; a binning of 0 means 1, a region of size 0 the whole image).
+ImageSize imageSize(const sensor_msgs::CameraInfo& info);
+
 /// Makes the camera of the images that come with a camera_info.
 /// @param rectified false: K and D (plumb_bob, rational_polynomial; empty: none); true: P alone,
 /// for images that are rectified already.
 /// @param error one sentence with what was expected and what came, if there is no camera.
-/// @return the camera at the resolution and in the region that the images have: binning and region
-/// of interest are taken off (REP 104; a binning of 0 means 1, a region of size 0 the whole image).
+/// @return the camera at the resolution and in the region that the images have, see `imageSize`.
 std::optional<CameraModel> cameraModel(const sensor_msgs::CameraInfo& info, bool rectified,
                                        std::string& error);
 

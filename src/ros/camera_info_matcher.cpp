@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ros/camera_conversion.h"
+
 namespace dominant_plane_detection {
 namespace {
 
@@ -33,8 +35,9 @@ std::optional<CameraInfoMatcher::Pair> CameraInfoMatcher::addImage(
     return std::nullopt;
   }
   const auto latest = std::find_if(infos_.rbegin(), infos_.rend(), [&](const auto& candidate) {
-    return candidate->header.frame_id == image->header.frame_id &&
-           candidate->width == image->width && candidate->height == image->height;
+    const ImageSize size = imageSize(*candidate);
+    return candidate->header.frame_id == image->header.frame_id && size.width == image->width &&
+           size.height == image->height;
   });
   if (latest == infos_.rend()) {
     keep(images_, image);  // its own may still come

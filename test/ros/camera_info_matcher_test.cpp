@@ -67,6 +67,20 @@ TEST(CameraInfoMatcher, AfterASecondTheLatestOfTheSameFrameAndSizeDoes) {
   EXPECT_FALSE(matcher.addImage(image(2.4), 1.4));
 }
 
+/// The size that counts is that of the images, not that of the sensor.
+TEST(CameraInfoMatcher, SizesAreThoseOfRegionAndBinning) {
+  const auto cropped = boost::make_shared<sensor_msgs::CameraInfo>(*info(50.0));
+  cropped->width = 1280;
+  cropped->height = 1024;
+  cropped->roi.width = 1280;
+  cropped->roi.height = 960;
+  cropped->binning_x = cropped->binning_y = 2;
+  CameraInfoMatcher matcher;
+  EXPECT_FALSE(matcher.addInfo(cropped, 0.0));
+  EXPECT_FALSE(matcher.addImage(image(1.0), 0.0));
+  EXPECT_TRUE(matcher.addImage(image(2.1), 1.1));
+}
+
 TEST(CameraInfoMatcher, WithoutAnyCameraInfoThereIsNoPair) {
   CameraInfoMatcher matcher;
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(matcher.addImage(image(i), i));
