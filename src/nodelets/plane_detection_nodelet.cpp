@@ -6,6 +6,9 @@
 namespace dominant_plane_detection {
 namespace {
 
+constexpr double kSoon = 0.01;   // [s] after onInit, when the queue is served
+constexpr double kPeriod = 1.0;  // [s] of diagnostics
+
 InputKind readInputKind(const ros::NodeHandle& node) {
   const std::string name = node.param<std::string>("input", "depth");
   if (name == "points") return InputKind::kPoints;
@@ -18,68 +21,82 @@ InputKind readInputKind(const ros::NodeHandle& node) {
 
 }  // namespace
 
-PlaneDetectionNodelet::~PlaneDetectionNodelet() {
-  // Each of these waits for its running callback, which may be waiting for the mutex: it must not
-  // be held here. Outputs first, or else a new listener would subscribe the inputs again.
-  if (mount_service_) mount_service_->shutdown();
-  outputs_.shutdown();
-  if (inputs_) inputs_->unsubscribe();
-  reconfigure_.reset();
+void PlaneDetectionNodelet::onInit() {
+  timer_ = getNodeHandle().createWallTimer(ros::WallDuration(kSoon),
+                                           [this](const ros::WallTimerEvent&) { onTimer(); });
 }
 
-void PlaneDetectionNodelet::onInit() {
+void PlaneDetectionNodelet::onTimer() {
   try {
-    start();
+    if (!diagnostics_) {
+      timer_.setPeriod(ros::WallDuration(kPeriod));
+      start();
+    }
+    // Somebody may have come before there was anything to call.
+    followListeners();
+    diagnostics_->report(
+        {inputs_->subscribed(), inputs_->counts(), inputs_->problem(), subscription_error_});
   } catch (const std::exception& error) {
-    NODELET_ERROR_STREAM("Could not start: " << error.what());
+    NODELET_ERROR_STREAM_THROTTLE(60.0, "Could not start: " << error.what());
   }
 }
 
 void PlaneDetectionNodelet::start() {
+  const ros::NodeHandle& node = getNodeHandle();
   ros::NodeHandle& private_node = getPrivateNodeHandle();
-  // Somebody may connect before everything is in place, and has to wait until it is.
-  const boost::lock_guard<boost::recursive_mutex> lock(mutex_);
-  detector_ = DominantPlaneDetector(
-      loadParameters<Parameters, PlaneDetectionConfig>(private_node, {"input", "rectified"}));
+  detector_ = DominantPlaneDetector(loadParameters<Parameters, PlaneDetectionConfig>(
+      private_node, {"input", "rectified", "image_transport"}));
   inputs_ = std::make_unique<DetectionInputs>(
-      getNodeHandle(), readInputKind(private_node), private_node.param("rectified", false),
-      [this](const DetectionInputs::Frame& frame) { onFrame(frame); }, [this] { onPicture(); });
-  outputs_.advertise(private_node, [this] { onListenersChanged(); });
-  mount_service_ = std::make_unique<MountService>(private_node, [this] { onListenersChanged(); });
-  reconfigure_ =
-      std::make_unique<dynamic_reconfigure::Server<PlaneDetectionConfig>>(mutex_, private_node);
+      node, private_node, readInputKind(private_node), private_node.param("rectified", false),
+      [this](const DetectionInputs::Frame& frame) { onFrame(frame); });
+  const auto listeners_changed = [this] { followListeners(); };
+  outputs_.advertise(private_node, listeners_changed);
+  overlay_ = std::make_unique<OverlayOutput>(node, private_node, listeners_changed);
+  mount_service_ = std::make_unique<MountService>(private_node, listeners_changed);
+  reconfigure_ = std::make_unique<dynamic_reconfigure::Server<PlaneDetectionConfig>>(private_node);
   reconfigure_->setCallback(
       [this](PlaneDetectionConfig& config, std::uint32_t) { onReconfigure(config); });
+  diagnostics_ = std::make_unique<DetectionDiagnostics>(node, private_node, getName());
 }
 
-void PlaneDetectionNodelet::onListenersChanged() {
-  const boost::lock_guard<boost::recursive_mutex> lock(mutex_);
-  if (!inputs_) return;
-  const bool wanted = outputs_.anybodyListens() || (mount_service_ && mount_service_->wants());
-  if (wanted == inputs_->subscribed()) return;
-  inputs_->subscribed() ? inputs_->unsubscribe() : inputs_->subscribe();
+void PlaneDetectionNodelet::followListeners() {
+  if (!diagnostics_) return;  // `start` did not get so far
+  std::string error;
+  try {
+    trySubscriptions();
+  } catch (const std::exception& exception) {
+    error = exception.what();
+  }
+  // Tried again at the next occasion: once a second at least.
+  if (!error.empty() && error != subscription_error_) {
+    NODELET_ERROR_STREAM("Could not subscribe, see "
+                         << getPrivateNodeHandle().resolveName("image_transport") << ": " << error);
+  }
+  subscription_error_ = error;
+}
+
+void PlaneDetectionNodelet::trySubscriptions() {
+  const bool wanted =
+      outputs_.anybodyListens() || overlay_->anybodyListens() || mount_service_->wants();
+  if (wanted != inputs_->subscribed()) wanted ? inputs_->subscribe() : inputs_->unsubscribe();
+  overlay_->followListeners();
 }
 
 void PlaneDetectionNodelet::onFrame(const DetectionInputs::Frame& frame) {
-  const boost::lock_guard<boost::recursive_mutex> lock(mutex_);
   try {
     const auto start = std::chrono::steady_clock::now();
     const Detection& detection = detector_.detect(frame.depth, frame.camera);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    diagnostics_->count(detection, time.count());
     mount_service_->add(detection);
-    outputs_.publish(frame, detection, time.count(), *inputs_);
+    outputs_.publish(frame, detection, time.count());
+    overlay_->publish(frame, detection);
   } catch (const std::exception& error) {
     NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped an image: " << error.what());
   }
 }
 
-void PlaneDetectionNodelet::onPicture() {
-  const boost::lock_guard<boost::recursive_mutex> lock(mutex_);
-  outputs_.publishWaitingOverlay(*inputs_);
-}
-
 void PlaneDetectionNodelet::onReconfigure(PlaneDetectionConfig& config) {
-  const boost::lock_guard<boost::recursive_mutex> lock(mutex_);
   const Parameters parameters = fromConfig<Parameters>(config);
   const std::string errors = joined(findErrors(parameters));
   if (errors.empty()) {

@@ -1,11 +1,18 @@
 #include "ros/cloud_conversion.h"
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
 #include <pcl_conversions/pcl_conversions.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
 #include <boost/make_shared.hpp>
 #include <cmath>
+#include <cstring>
 #include <limits>
+
+#include "ros/byte_order.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -35,28 +42,76 @@ class Axis {
   double count_ = 0.0;
 };
 
+/// Where a point's x, y and z are, in bytes from its first one.
+using Offsets = std::array<std::size_t, 3>;
+
+/// @return nothing where one of the three is missing, is no single float, or reaches beyond the
+/// point.
+std::optional<Offsets> findCoordinates(const sensor_msgs::PointCloud2& cloud) {
+  constexpr const char* kNames[] = {"x", "y", "z"};
+  Offsets offsets{};
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(),
+                                    [&](const auto& f) { return f.name == kNames[i]; });
+    const bool usable = field != cloud.fields.end() &&
+                        field->datatype == sensor_msgs::PointField::FLOAT32 &&
+                        std::size_t{field->offset} + sizeof(float) <= cloud.point_step;
+    if (!usable) return std::nullopt;
+    offsets[i] = field->offset;
+  }
+  return offsets;
+}
+
+/// Nothing of a message is trusted before its sizes are known to agree.
+/// @return what is wrong with them; empty when nothing is.
+std::string findContradiction(const sensor_msgs::PointCloud2& cloud) {
+  const auto text = [](auto value) { return std::to_string(value); };
+  constexpr std::uint32_t kMaxSide = 1U << 15U;  // keeps every index an int
+  if (cloud.height < 2 || cloud.width < 2 || cloud.height > kMaxSide || cloud.width > kMaxSide) {
+    return "expected an organised cloud of 2 to 32768 points each way, got " + text(cloud.width) +
+           " x " + text(cloud.height);
+  }
+  const std::size_t row = std::size_t{cloud.width} * cloud.point_step;
+  if (cloud.row_step < row) {
+    return "expected a row_step of at least " + text(row) + " bytes for " + text(cloud.width) +
+           " points of " + text(cloud.point_step) + ", got " + text(cloud.row_step);
+  }
+  const std::size_t all = std::size_t{cloud.row_step} * (cloud.height - 1) + row;
+  if (cloud.data.size() < all) {
+    return "expected at least " + text(all) + " bytes of points, got " + text(cloud.data.size());
+  }
+  if (!findCoordinates(cloud)) return "expected the fields x, y and z, one 32-bit float each";
+  if ((cloud.is_bigendian != 0) != machineIsBigEndian()) {
+    return "expected points in this machine's byte order";
+  }
+  return "";
+}
+
 }  // namespace
 
-std::optional<CloudReader::Image> CloudReader::read(const pcl::PointCloud<pcl::PointXYZ>& cloud,
+std::optional<CloudReader::Image> CloudReader::read(const sensor_msgs::PointCloud2& cloud,
                                                     std::string& error) {
-  if (cloud.height < 2 || cloud.width < 2 ||
-      cloud.size() != static_cast<std::size_t>(cloud.width) * cloud.height) {
-    error = "expected an organised cloud, got " + std::to_string(cloud.width) + " x " +
-            std::to_string(cloud.height) + " with " + std::to_string(cloud.size()) + " points";
-    return std::nullopt;
-  }
+  error = findContradiction(cloud);
+  if (!error.empty()) return std::nullopt;
+  const Offsets offsets = *findCoordinates(cloud);
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-  depth_.resize(cloud.size());
+  depth_.resize(std::size_t{cloud.width} * cloud.height);
   Axis x_axis, y_axis;
   std::size_t points = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const pcl::PointXYZ& p = cloud[i];
-    const bool valid = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p.z > 0.0F;
-    depth_[i] = valid ? p.z : kNaN;
-    if (!valid) continue;
-    ++points;
-    x_axis.add(static_cast<double>(p.x / p.z), static_cast<double>(i % cloud.width));
-    y_axis.add(static_cast<double>(p.y / p.z), static_cast<double>(i / cloud.width));
+  for (std::uint32_t v = 0; v < cloud.height; ++v) {
+    const std::uint8_t* point = cloud.data.data() + std::size_t{v} * cloud.row_step;
+    for (std::uint32_t u = 0; u < cloud.width; ++u, point += cloud.point_step) {
+      float x = 0.0F, y = 0.0F, z = 0.0F;
+      std::memcpy(&x, point + offsets[0], sizeof(x));
+      std::memcpy(&y, point + offsets[1], sizeof(y));
+      std::memcpy(&z, point + offsets[2], sizeof(z));
+      const bool valid = std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && z > 0.0F;
+      depth_[std::size_t{v} * cloud.width + u] = valid ? z : kNaN;
+      if (!valid) continue;
+      ++points;
+      x_axis.add(static_cast<double>(x / z), static_cast<double>(u));
+      y_axis.add(static_cast<double>(y / z), static_cast<double>(v));
+    }
   }
   constexpr std::size_t kMinPoints = 100;
   if (points < kMinPoints) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include <optional>
@@ -23,11 +21,13 @@ class CloudReader {
     CameraModel camera;
   };
 
-  /// @param cloud [m] in an optical frame; NaN where there is no point.
+  /// @param cloud [m] in an optical frame, with x, y and z as 32-bit floats, as all of PCL's point
+  /// types have them; NaN where there is no point.
   /// @param error one sentence with what was expected and what came, if there is no image.
-  /// @return nothing for a cloud that is not organised, has too few points to tell the camera, or
-  /// does not come from a pinhole (points more than half a pixel off).
-  std::optional<Image> read(const pcl::PointCloud<pcl::PointXYZ>& cloud, std::string& error);
+  /// @return nothing for a cloud whose sizes contradict each other, that is not organised, has too
+  /// few points to tell the camera, or does not come from a pinhole (points more than half a pixel
+  /// off).
+  std::optional<Image> read(const sensor_msgs::PointCloud2& cloud, std::string& error);
 
  private:
   std::vector<float> depth_;

@@ -4,15 +4,12 @@
 
 #include <algorithm>
 
+#include "ros/byte_order.h"
+
 namespace dominant_plane_detection {
 namespace {
 
 namespace encodings = sensor_msgs::image_encodings;
-
-bool machineIsBigEndian() {
-  const std::uint16_t one = 1;
-  return *reinterpret_cast<const std::uint8_t*>(&one) == 0;
-}
 
 std::optional<DepthView::Type> depthType(const std::string& encoding) {
   if (encoding == encodings::TYPE_16UC1 || encoding == encodings::MONO16) {

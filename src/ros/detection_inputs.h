@@ -1,12 +1,11 @@
 #pragma once
 
 #include <image_transport/image_transport.h>
-#include <pcl_ros/point_cloud.h>
 #include <ros/node_handle.h>
+#include <sensor_msgs/PointCloud2.h>
 
-#include <deque>
+#include <cstdint>
 #include <functional>
-#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "ros/camera_info_matcher.h"
 #include "ros/cloud_conversion.h"
 #include "ros/depth_conversion.h"
+#include "ros/input_watch.h"
 
 namespace dominant_plane_detection {
 
@@ -24,8 +24,10 @@ enum class InputKind : std::uint8_t {
   kPoints,  ///< points, an organised cloud
 };
 
-/// Subscribes to the topics that depth comes from, and hands on what can be looked at. What cannot
-/// is dropped with one throttled line that says what was expected and what came.
+/// Subscribes to the topics that depth comes from, and hands on the newest image that can be looked
+/// at. What cannot is dropped with one throttled line that says what was expected and what came.
+///
+/// All of it happens in the thread of the node's callback queue.
 class DetectionInputs {
  public:
   struct Frame {
@@ -34,52 +36,73 @@ class DetectionInputs {
     CameraModel camera;
   };
   using Callback = std::function<void(const Frame&)>;
-  using PictureCallback = std::function<void()>;
+
+  /// What became of the images, since the node started.
+  struct Counts {
+    std::uint64_t received = 0;
+    std::uint64_t overtaken = 0;  ///< a newer one came before they could be looked at
+    std::uint64_t refused = 0;    ///< malformed
+    std::string refusal;          ///< why the last one was
+  };
 
   /// @param node topics are relative to it.
+  /// @param private_node has `image_transport`.
   /// @param rectified whether depth images are; clouds and their cameras say it themselves.
-  /// @param picture_callback called when there is a new picture.
-  DetectionInputs(const ros::NodeHandle& node, InputKind kind, bool rectified, Callback callback,
-                  PictureCallback picture_callback);
+  DetectionInputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node, InputKind kind,
+                  bool rectified, Callback callback);
+  ~DetectionInputs();
+  DetectionInputs(const DetectionInputs&) = delete;
+  DetectionInputs& operator=(const DetectionInputs&) = delete;
 
+  /// @throw image_transport::Exception when `image_transport` names none; nothing is subscribed
+  /// then.
   void subscribe();
   void unsubscribe();
   bool subscribed() const { return subscribed_; }
 
-  /// @return whether somebody publishes pictures, so that one may still come.
-  bool expectsPictures() const { return pictures_.getNumPublishers() > 0; }
-  /// @return the picture that belongs to a depth image: 8-bit BGR of its size, of a stamp less than
-  /// half an image's time away; nothing if there is none.
-  std::optional<cv::Mat> picture(const std_msgs::Header& header, int width, int height) const;
+  const Counts& counts() const { return counts_; }
+  /// To be called now and then.
+  /// @return one sentence while nothing comes that can be looked at, which the log has as well,
+  /// once each time that this begins; otherwise empty.
+  std::string problem();
 
  private:
   void onImage(const sensor_msgs::ImageConstPtr& image);
   void onInfo(const sensor_msgs::CameraInfoConstPtr& info);
   void onPair(const std::optional<CameraInfoMatcher::Pair>& pair);
-  void onPoints(const boost::shared_ptr<const pcl::PointCloud<pcl::PointXYZ>>& cloud);
-  void onPicture(const sensor_msgs::ImageConstPtr& picture);
-  void warnOfSilence();
+  void onPoints(const sensor_msgs::PointCloud2ConstPtr& cloud);
+  template <typename Message>
+  void keepNewest(std::optional<Message>& newest, const Message& message);
+  void handOnNewest();
+  void handOn(const CameraInfoMatcher::Pair& pair);
+  void handOn(const sensor_msgs::PointCloud2& cloud);
+  void refuse(const std::string& what, const std::string& error);
+  std::string describe(InputWatch::Problem problem) const;
 
   ros::NodeHandle node_;
+  ros::NodeHandle private_node_;
   image_transport::ImageTransport transport_;
   InputKind kind_;
   bool rectified_;
   Callback callback_;
-  PictureCallback picture_callback_;
 
   bool subscribed_ = false;
-  bool received_ = false;       ///< anything since the subscription
   bool warned_stamps_ = false;  ///< of camera_info with other stamps
   image_transport::Subscriber images_;
-  image_transport::Subscriber pictures_;
   ros::Subscriber infos_;
   ros::Subscriber points_;
-  ros::WallTimer silence_;
 
   CameraInfoMatcher matcher_;
   DepthReader depth_reader_;
   CloudReader cloud_reader_;
-  std::deque<sensor_msgs::ImageConstPtr> recent_pictures_;
+  /// What comes next: one of the two, and whether `handOnNewest` is on its way.
+  std::optional<CameraInfoMatcher::Pair> newest_pair_;
+  std::optional<sensor_msgs::PointCloud2ConstPtr> newest_cloud_;
+  bool handing_on_ = false;
+  Counts counts_;
+  InputWatch watch_;
+  InputWatch::Problem known_problem_ = InputWatch::Problem::kNone;
+  std::string problem_text_;
 };
 
 }  // namespace dominant_plane_detection

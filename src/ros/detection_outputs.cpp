@@ -1,12 +1,9 @@
 #include "ros/detection_outputs.h"
 
-#include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/PointCloud2.h>
-#include <sensor_msgs/image_encodings.h>
 
 #include "ros/detection_messages.h"
 #include "ros/ground_outline.h"
-#include "ros/overlay.h"
 #include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
@@ -37,27 +34,18 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
       node.advertise<visualization_msgs::MarkerArray>(topics::kMarkers, kQueue, changed, changed);
   image_transport::ImageTransport transport(node);
   mask_ = transport.advertise(topics::kGroundMask, kQueue, image_changed, image_changed);
-  overlay_ = transport.advertise(topics::kOverlay, kQueue, image_changed, image_changed);
-}
-
-void DetectionOutputs::shutdown() {
-  for (ros::Publisher* publisher :
-       {&plane_, &coefficients_, &obstacles_, &ground_, &outline_, &markers_}) {
-    publisher->shutdown();
-  }
-  for (image_transport::Publisher* publisher : {&mask_, &overlay_}) publisher->shutdown();
 }
 
 bool DetectionOutputs::anybodyListens() const {
   return plane_.getNumSubscribers() + coefficients_.getNumSubscribers() +
              obstacles_.getNumSubscribers() + ground_.getNumSubscribers() +
              outline_.getNumSubscribers() + markers_.getNumSubscribers() +
-             mask_.getNumSubscribers() + overlay_.getNumSubscribers() >
+             mask_.getNumSubscribers() >
          0;
 }
 
 void DetectionOutputs::publish(const DetectionInputs::Frame& frame, const Detection& detection,
-                               double processing_time, const DetectionInputs& inputs) {
+                               double processing_time) {
   if (plane_.getNumSubscribers() > 0) {
     plane_.publish(planeMessage(frame.header, detection, processing_time));
   }
@@ -67,11 +55,6 @@ void DetectionOutputs::publish(const DetectionInputs::Frame& frame, const Detect
   if (mask_.getNumSubscribers() > 0) mask_.publish(maskMessage(frame.header, detection));
   publishClouds(frame, detection);
   publishShapes(frame, detection);
-  if (overlay_.getNumSubscribers() > 0) {
-    prepareOverlay(frame, detection, inputs);
-  } else {
-    waiting_.reset();
-  }
 }
 
 void DetectionOutputs::publishClouds(const DetectionInputs::Frame& frame,
@@ -94,30 +77,6 @@ void DetectionOutputs::publishShapes(const DetectionInputs::Frame& frame,
   const std::vector<Eigen::Vector3d> outline = groundOutline(detection, rays_);
   if (!outline.empty()) outline_.publish(outlineMessage(frame.header, outline));
   markers_.publish(markersMessage(frame.header, detection, outline));
-}
-
-void DetectionOutputs::prepareOverlay(const DetectionInputs::Frame& frame,
-                                      const Detection& detection, const DetectionInputs& inputs) {
-  if (waiting_) publishOverlay(std::nullopt);  // its picture never came
-  waiting_ = WaitingOverlay{frame.header, detection, greyPicture(frame.depth)};
-  publishWaitingOverlay(inputs);
-  if (waiting_ && !inputs.expectsPictures()) publishOverlay(std::nullopt);
-}
-
-void DetectionOutputs::publishWaitingOverlay(const DetectionInputs& inputs) {
-  if (!waiting_) return;
-  const auto picture = inputs.picture(waiting_->header, waiting_->detection.image_width,
-                                      waiting_->detection.image_height);
-  if (picture) publishOverlay(picture);
-}
-
-/// Publishes what waits, over the picture or else over the grey one.
-void DetectionOutputs::publishOverlay(const std::optional<cv::Mat>& picture) {
-  cv::Mat painted = picture.value_or(waiting_->grey);
-  paintOverlay(waiting_->detection, painted);
-  overlay_.publish(cv_bridge::CvImage(waiting_->header, sensor_msgs::image_encodings::BGR8, painted)
-                       .toImageMsg());
-  waiting_.reset();
 }
 
 }  // namespace dominant_plane_detection

@@ -3,10 +3,13 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "ros/queued_call.h"
+
 namespace dominant_plane_detection {
 namespace {
 
 constexpr std::uint32_t kUsualFrames = 100;
+constexpr std::uint32_t kMostFrames = 10000;  // five minutes
 constexpr std::chrono::seconds kPatience{5};  // without an image
 
 }  // namespace
@@ -26,16 +29,16 @@ CalibrateMount::Response toResponse(const Mount& mount) {
 }
 
 MountService::MountService(const ros::NodeHandle& node, std::function<void()> wish_changed)
-    : wish_changed_(std::move(wish_changed)), spinner_(1, &queue_) {
+    : node_queue_(*node.getCallbackQueue()),
+      wish_changed_(std::move(wish_changed)),
+      spinner_(1, &queue_) {
   ros::NodeHandle own(node);
   own.setCallbackQueue(&queue_);
   server_ = own.advertiseService("calibrate_mount", &MountService::onCall, this);
   spinner_.start();
 }
 
-MountService::~MountService() { shutdown(); }
-
-void MountService::shutdown() {
+MountService::~MountService() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ending_ = true;
@@ -43,7 +46,10 @@ void MountService::shutdown() {
   changed_.notify_all();
   spinner_.stop();
   server_.shutdown();
+  node_queue_.removeByID(reinterpret_cast<std::uint64_t>(this));
 }
+
+void MountService::tellWishChanged() { callLater(node_queue_, this, wish_changed_); }
 
 bool MountService::wants() const {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -59,6 +65,11 @@ void MountService::add(const Detection& detection) {
 
 bool MountService::onCall(CalibrateMount::Request& request, CalibrateMount::Response& response) {
   try {
+    if (request.frames > kMostFrames) {
+      throw std::invalid_argument("expected at most " + std::to_string(kMostFrames) +
+                                  " frames (0: " + std::to_string(kUsualFrames) + "), got " +
+                                  std::to_string(request.frames));
+    }
     response = toResponse(collect(request.frames == 0 ? kUsualFrames : request.frames).mount());
   } catch (const std::exception& error) {
     response = CalibrateMount::Response();
@@ -71,7 +82,7 @@ MountEstimate MountService::collect(std::size_t frames) {
   std::unique_lock<std::mutex> lock(mutex_);
   estimate_.emplace();
   lock.unlock();
-  wish_changed_();
+  tellWishChanged();
   lock.lock();
   for (std::size_t before = 0; !ending_ && before < frames; before = estimate_->frames()) {
     const bool more =
@@ -81,7 +92,7 @@ MountEstimate MountService::collect(std::size_t frames) {
   const MountEstimate estimate = *std::exchange(estimate_, std::nullopt);
   const bool complete = estimate.frames() >= frames;
   lock.unlock();
-  wish_changed_();
+  tellWishChanged();
   if (complete) return estimate;
   throw std::runtime_error("expected " + std::to_string(frames) + " images, got " +
                            std::to_string(estimate.frames()) + " before none came any more");

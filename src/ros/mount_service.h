@@ -16,16 +16,18 @@ namespace dominant_plane_detection {
 
 CalibrateMount::Response toResponse(const Mount& mount);
 
-/// The service `calibrate_mount`. A call waits for images, in a thread of its own: the threads that
-/// bring them have to go on.
+/// The service `calibrate_mount`. A call waits for detections in a thread of its own, so that those
+/// that bring them go on; all else is called in the thread of the node's callback queue.
 class MountService {
  public:
-  /// @param wish_changed called, in the service's thread, when detections begin or end to be
-  /// wanted.
+  /// @param wish_changed called, in the thread of the node's queue, when detections begin or end to
+  /// be wanted.
   MountService(const ros::NodeHandle& node, std::function<void()> wish_changed);
+  /// Ends a running call, without a result. Not while a callback of the node's queue runs
+  /// elsewhere.
   ~MountService();
-  /// Ends a running call, without a result, and takes no more.
-  void shutdown();
+  MountService(const MountService&) = delete;
+  MountService& operator=(const MountService&) = delete;
 
   /// @return whether a call waits for detections.
   bool wants() const;
@@ -34,7 +36,9 @@ class MountService {
  private:
   bool onCall(CalibrateMount::Request& request, CalibrateMount::Response& response);
   MountEstimate collect(std::size_t frames);
+  void tellWishChanged();
 
+  ros::CallbackQueueInterface& node_queue_;
   std::function<void()> wish_changed_;
   mutable std::mutex mutex_;  ///< of what follows
   std::condition_variable changed_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <limits>
 
 #include "core/ray_table.h"
@@ -155,8 +157,7 @@ TEST(CameraConversion, SaysWhatIsWrongWithACameraInfo) {
   EXPECT_FALSE(cameraModel(info, false, error));
 }
 
-pcl::PointCloud<pcl::PointXYZ> organisedCloud(const CameraModel& camera,
-                                              const OwnedDepth<float>& depth) {
+sensor_msgs::PointCloud2 organisedCloud(const CameraModel& camera, const OwnedDepth<float>& depth) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   pcl::PointCloud<pcl::PointXYZ> cloud(static_cast<std::uint32_t>(camera.width),
                                        static_cast<std::uint32_t>(camera.height));
@@ -169,7 +170,9 @@ pcl::PointCloud<pcl::PointXYZ> organisedCloud(const CameraModel& camera,
       cloud.at(u, v) = {point.x(), point.y(), point.z()};
     }
   }
-  return cloud;
+  sensor_msgs::PointCloud2 message;
+  pcl::toROSMsg(cloud, message);
+  return message;
 }
 
 TEST(CloudReader, FindsTheCameraOfAnOrganisedCloud) {
@@ -188,25 +191,78 @@ TEST(CloudReader, FindsTheCameraOfAnOrganisedCloud) {
   EXPECT_EQ(metresAt(image->depth, 100, 200), metresAt(depth.view(), 100, 200));
 }
 
+/// Any of PCL's types will do, with fields in any place and rows that are padded.
+TEST(CloudReader, ReadsTheFieldsWhereTheyAre) {
+  const CameraModel camera = testCamera(64, 48);
+  const OwnedDepth<float> depth = planeDepth(camera, upOf(0.6), 0.8);
+  const sensor_msgs::PointCloud2 packed = organisedCloud(camera, depth);
+  sensor_msgs::PointCloud2 cloud = packed;
+  std::swap(cloud.fields[0].offset, cloud.fields[2].offset);  // z y x
+  cloud.row_step += 12;
+  cloud.data.assign(cloud.row_step * cloud.height, 77);
+  for (std::uint32_t v = 0; v < cloud.height; ++v) {
+    for (std::uint32_t u = 0; u < cloud.width; ++u) {
+      const auto from = packed.data.begin() + v * packed.row_step + u * packed.point_step;
+      const auto to = cloud.data.begin() + v * cloud.row_step + u * cloud.point_step;
+      std::copy_n(from, 4, to + 8);
+      std::copy_n(from + 4, 4, to + 4);
+      std::copy_n(from + 8, 4, to);
+    }
+  }
+  cloud.data.resize(cloud.data.size() - 12);  // the last row need not be padded
+  CloudReader reader;
+  std::string error;
+  const auto image = reader.read(cloud, error);
+  ASSERT_TRUE(image) << error;
+  EXPECT_NEAR(image->camera.cx, camera.cx, 1e-3);
+  for (const int v : {0, 47}) {
+    EXPECT_EQ(metresAt(image->depth, 63, v), metresAt(depth.view(), 63, v));
+  }
+}
+
 TEST(CloudReader, SaysWhatIsWrongWithACloud) {
   const CameraModel camera = testCamera(64, 48);
   const auto cloud = organisedCloud(camera, planeDepth(camera, upOf(0.6), 0.8));
   CloudReader reader;
-  std::string error;
-  auto row = cloud;
-  row.width = row.width * row.height;
-  row.height = 1;
-  EXPECT_FALSE(reader.read(row, error));
-  EXPECT_NE(error.find("organised"), std::string::npos) << error;
-  auto empty = cloud;
-  for (auto& point : empty) point.x = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_FALSE(reader.read(empty, error));
-  EXPECT_NE(error.find("got 0"), std::string::npos) << error;
-  auto shuffled = cloud;
-  std::reverse(shuffled.begin(), shuffled.begin() + 1000);
-  EXPECT_FALSE(reader.read(shuffled, error));
-  EXPECT_NE(error.find("pinhole"), std::string::npos) << error;
-  EXPECT_FALSE(reader.read(pcl::PointCloud<pcl::PointXYZ>(), error));
+  const auto expectError = [&](const sensor_msgs::PointCloud2& bad, const char* words) {
+    std::string error;
+    EXPECT_FALSE(reader.read(bad, error));
+    EXPECT_NE(error.find(words), std::string::npos) << error;
+  };
+  const auto change = [&](const std::function<void(sensor_msgs::PointCloud2&)>& how) {
+    sensor_msgs::PointCloud2 changed = cloud;
+    how(changed);
+    return changed;
+  };
+  const auto setX = [](sensor_msgs::PointCloud2& c, std::size_t point, float x) {
+    std::memcpy(&c.data[point * c.point_step], &x, sizeof(x));
+  };
+  expectError(change([](auto& c) {
+                c.width *= c.height;
+                c.height = 1;
+              }),
+              "organised");
+  expectError(change([&](auto& c) {
+                for (std::size_t i = 0; i < 64 * 48; ++i) {
+                  setX(c, i, std::numeric_limits<float>::quiet_NaN());
+                }
+              }),
+              "got 0");
+  expectError(change([&](auto& c) {
+                for (std::size_t i = 0; i < 64 * 48; ++i) setX(c, i, 0.01F * static_cast<float>(i));
+              }),
+              "pinhole");
+  expectError(sensor_msgs::PointCloud2(), "organised");
+  expectError(change([](auto& c) { c.data.pop_back(); }), "bytes of points");
+  expectError(change([](auto& c) { c.row_step = 4; }), "row_step of at least 1024");
+  expectError(change([](auto& c) { c.height = 0xffffffffU; }), "organised");
+  expectError(change([](auto& c) { c.point_step = 0; }), "fields");
+  expectError(change([](auto& c) { c.fields.pop_back(); }), "fields");
+  expectError(change([](auto& c) { c.fields[1].offset = 13; }), "fields");
+  expectError(change([](auto& c) { c.fields[1].offset = 0xfffffffeU; }), "fields");
+  expectError(change([](auto& c) { c.fields[0].datatype = sensor_msgs::PointField::FLOAT64; }),
+              "fields");
+  expectError(change([](auto& c) { c.is_bigendian = 1; }), "byte order");
 }
 
 class DetectionMessages : public testing::Test {

@@ -1,12 +1,16 @@
 // calibrate_mount asked of a detection nodelet, by service and by command.
 
 #include <dominant_plane_detection/CalibrateMount.h>
+#include <dominant_plane_detection/DominantPlane.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/PointCloud2.h>
 
+#include <atomic>
 #include <future>
 
 #include "support/command.h"
 #include "support/driver_test.h"
+#include "support/long_form.h"
 #include "support/ros_test.h"
 
 namespace dominant_plane_detection {
@@ -19,6 +23,7 @@ class MountService : public testing::Test {
   void start(const std::string& uri) {
     ASSERT_TRUE(manager_.loadDriver("/camera", uri));
     ASSERT_TRUE(manager_.loadDetection("/camera"));
+    ASSERT_TRUE(ros::service::waitForService(kService, 10000));
   }
   static CalibrateMount::Response call(std::uint32_t frames) {
     CalibrateMount call;
@@ -47,6 +52,43 @@ TEST_F(MountService, GivesTheScenesMountWithoutAnyOtherListener) {
   EXPECT_NE(outcome.text.find("from 20 images"), std::string::npos) << outcome.text;
 }
 
+/// Unsubscribing waited for a callback that waited for the lock that it held.
+TEST_F(MountService, CallsEndWhileListenersComeAndGo) {
+  ASSERT_TRUE(manager_.loadDriver("/camera", "virtual://rubbish_bin?serial=M5&sensor=independent",
+                                  {{"depth_mode", "320x240@60"}}));
+  ASSERT_TRUE(manager_.loadDetection("/camera"));
+  ASSERT_TRUE(ros::service::waitForService(kService, 10000));
+  const int calls = longForm(20, 1000);
+  std::atomic<int> answered{0};
+  auto caller = std::async(std::launch::async, [&] {
+    int successes = 0;
+    for (int i = 0; i < calls; ++i, ++answered) successes += call(10).success ? 1 : 0;
+    return successes;
+  });
+  ros::NodeHandle node("/camera/plane_detection");
+  std::size_t planes = 0;
+  for (int last = -1; last < calls;) {
+    Listener<DominantPlane> plane(node, "plane");
+    ASSERT_TRUE(spinUntil([&] { return plane.size() > 0; })) << "after " << answered << " calls";
+    Listener<sensor_msgs::Image> overlay(node, "overlay");
+    Listener<sensor_msgs::PointCloud2> cloud(node, "ground");
+    ASSERT_TRUE(spinUntil([&] { return overlay.size() > 0 && cloud.size() > 0; }))
+        << "after " << answered << " calls";
+    planes += plane.size();
+    last = answered;
+  }
+  ASSERT_EQ(caller.wait_for(std::chrono::seconds(20)), std::future_status::ready);
+  EXPECT_EQ(caller.get(), calls);
+  std::cout << calls << " calls, " << planes << " planes meanwhile\n";
+}
+
+TEST_F(MountService, RefusesMoreFramesThanAnybodyWaitsFor) {
+  start("virtual://rubbish_bin?serial=M6");
+  const auto mount = call(4294967295U);
+  EXPECT_FALSE(mount.success);
+  EXPECT_NE(mount.message.find("at most 10000 frames"), std::string::npos) << mount.message;
+}
+
 TEST_F(MountService, RefusesACameraThatMoves) {
   start("virtual://laboratory?serial=M2");
   const auto mount = call(60);
@@ -69,7 +111,6 @@ TEST_F(MountService, SaysWhenNoImagesCome) {
 
 TEST_F(MountService, EndsWithItsNodelet) {
   start("virtual://rubbish_bin?serial=M3");
-  ASSERT_TRUE(ros::service::waitForService(kService, 10000));
   ros::NodeHandle node("/camera");
   auto answer = std::async(std::launch::async, [] {
     CalibrateMount call;

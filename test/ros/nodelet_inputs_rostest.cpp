@@ -3,10 +3,9 @@
 #include <nodelet/NodeletLoad.h>
 #include <nodelet/NodeletUnload.h>
 #include <pcl_conversions/pcl_conversions.h>
-#include <pcl_ros/point_cloud.h>
+#include <sensor_msgs/PointCloud2.h>
 
 #include <algorithm>
-#include <boost/make_shared.hpp>
 #include <cmath>
 #include <limits>
 
@@ -101,6 +100,23 @@ TEST_F(Nodelet, CameraInfoWithOtherStampsDoesNotSilenceIt) {
   expectTruth(planes.last());
 }
 
+TEST_F(Nodelet, HearsAListenerThatWasThereBeforeIt) {
+  ASSERT_TRUE(ros::service::waitForService("/manager/load_nodelet", 20000));
+  for (int round = 0; round < 10; ++round) {
+    Listener<DominantPlane> planes(node_, "/later_detection/plane");
+    nodelet::NodeletLoad load;
+    load.request.name = "/later_detection";
+    load.request.type = "dominant_plane_detection/PlaneDetection";
+    ASSERT_TRUE(ros::service::call("/manager/load_nodelet", load) && load.response.success);
+    EXPECT_TRUE(waitForSubscription()) << "round " << round;
+    expectTruth(detect(planes, image_));
+    nodelet::NodeletUnload unload;
+    unload.request.name = "/later_detection";
+    ASSERT_TRUE(ros::service::call("/manager/unload_nodelet", unload) && unload.response.success);
+    ASSERT_TRUE(spinUntil([&] { return images_.getNumSubscribers() == 0; }));
+  }
+}
+
 TEST_F(Nodelet, UnloadsAndLoadsAgainWhileImagesFlow) {
   ASSERT_TRUE(ros::service::waitForService("/manager/load_nodelet", 20000));
   for (int round = 0; round < 5; ++round) {
@@ -124,27 +140,71 @@ TEST_F(Nodelet, UnloadsAndLoadsAgainWhileImagesFlow) {
   }
 }
 
-TEST_F(Nodelet, OrganisedCloudsGiveTheSamePlane) {
-  const ros::Publisher clouds = node_.advertise<pcl::PointCloud<pcl::PointXYZ>>("/points", 1);
-  Listener<DominantPlane> planes(node_, "/points_detection/plane");
-  ASSERT_TRUE(spinUntil([&] { return clouds.getNumSubscribers() > 0 && planes.connected(); }));
-  const OwnedDepth<float> depth = sceneMetres();
-  RayTable rays;
-  rays.build(testCamera());
-  auto cloud = boost::make_shared<pcl::PointCloud<pcl::PointXYZ>>(640, 480);
-  for (int v = 0; v < 480; ++v) {
-    for (int u = 0; u < 640; ++u) {
-      const Eigen::Vector3f point = metresAt(depth.view(), u, v) * rays.ray(u, v);
-      cloud->at(u, v) = {point.x(), point.y(), point.z()};
+class Clouds : public Nodelet {
+ protected:
+  Clouds() : clouds_(node_.advertise<sensor_msgs::PointCloud2>("/points", 10)) {
+    const OwnedDepth<float> depth = sceneMetres();
+    RayTable rays;
+    rays.build(testCamera());
+    pcl::PointCloud<pcl::PointXYZ> points(640, 480);
+    for (int v = 0; v < 480; ++v) {
+      for (int u = 0; u < 640; ++u) {
+        const Eigen::Vector3f point = metresAt(depth.view(), u, v) * rays.ray(u, v);
+        points.at(u, v) = {point.x(), point.y(), point.z()};
+      }
     }
+    pcl::toROSMsg(points, cloud_);
+    cloud_.header.frame_id = "optical";
   }
-  cloud->header.frame_id = "optical";
-  const ros::Time stamp = nextStamp();
-  pcl_conversions::toPCL(stamp, cloud->header.stamp);
-  clouds.publish(cloud);
-  ASSERT_TRUE(spinUntil([&] { return planes.size() > 0; }));
-  EXPECT_EQ(planes.last()->header.stamp, stamp);
-  expectTruth(planes.last());
+  ros::Time sendCloud(sensor_msgs::PointCloud2 cloud) {
+    cloud.header.stamp = nextStamp();
+    clouds_.publish(cloud);
+    return cloud.header.stamp;
+  }
+  void expectPlane(const Listener<DominantPlane>& planes) {
+    const ros::Time stamp = sendCloud(cloud_);
+    ASSERT_TRUE(
+        spinUntil([&] { return planes.size() > 0 && planes.last()->header.stamp == stamp; }));
+    expectTruth(planes.last());
+  }
+
+  ros::Publisher clouds_;
+  sensor_msgs::PointCloud2 cloud_;
+};
+
+TEST_F(Clouds, GiveTheSamePlane) {
+  Listener<DominantPlane> planes(node_, "/points_detection/plane");
+  ASSERT_TRUE(spinUntil([&] { return clouds_.getNumSubscribers() > 0 && planes.connected(); }));
+  expectPlane(planes);
+}
+
+TEST_F(Clouds, WhoseSizesContradictEachOtherAreSurvived) {
+  Listener<DominantPlane> planes(node_, "/points_detection/plane");
+  ASSERT_TRUE(spinUntil([&] { return clouds_.getNumSubscribers() > 0 && planes.connected(); }));
+  expectPlane(planes);
+  const std::size_t before = planes.size();
+  sensor_msgs::PointCloud2 bad = cloud_;
+  bad.width = 4;  // far less than there is data
+  bad.height = 3;
+  sendCloud(bad);
+  bad = cloud_;
+  bad.data.resize(1000);
+  sendCloud(bad);
+  bad = cloud_;
+  bad.data.resize(2 * bad.data.size());
+  bad.row_step *= 1000;
+  sendCloud(bad);
+  bad = cloud_;
+  bad.point_step = 0;
+  sendCloud(bad);
+  bad = cloud_;
+  bad.fields[2].offset = 1000000;
+  sendCloud(bad);
+  bad = cloud_;
+  bad.fields.clear();
+  sendCloud(bad);
+  expectPlane(planes);
+  EXPECT_EQ(planes.size(), before + 1);
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include <pcl_conversions/pcl_conversions.h>
 #include <pcl_msgs/ModelCoefficients.h>
 #include <pcl_ros/point_cloud.h>
+#include <rosgraph_msgs/Log.h>
+
+#include <algorithm>
 
 #include "nodelet_fixture.h"
 
@@ -64,6 +67,17 @@ TEST_F(Nodelet, AllOutputsOfOneImage) {
   }
 }
 
+sensor_msgs::Image bluePicture() {
+  sensor_msgs::Image picture;
+  picture.encoding = "rgb8";
+  picture.width = 640;
+  picture.height = 480;
+  picture.step = 3 * picture.width;
+  picture.data.assign(picture.step * picture.height, 0);
+  for (std::size_t i = 0; i < picture.data.size(); i += 3) picture.data[i + 2] = 240;
+  return picture;
+}
+
 TEST_F(Nodelet, OverlayTakesThePictureThatComesLater) {
   const ros::Publisher pictures = node_.advertise<sensor_msgs::Image>("/image", 5);
   Listener<sensor_msgs::Image> overlays(node_, "/plane_detection/overlay");
@@ -72,14 +86,8 @@ TEST_F(Nodelet, OverlayTakesThePictureThatComesLater) {
   ASSERT_TRUE(spinUntil([&] {
     return pictures.getNumSubscribers() > 0 && overlays.connected() && planes.connected();
   }));
-  sensor_msgs::Image picture;
-  picture.encoding = "rgb8";
-  picture.width = 640;
-  picture.height = 480;
-  picture.step = 3 * picture.width;
-  picture.data.assign(picture.step * picture.height, 0);
-  for (std::size_t i = 0; i < picture.data.size(); i += 3) picture.data[i + 2] = 240;  // blue
-
+  sensor_msgs::Image picture = bluePicture();
+  picture.header.frame_id = "optical";
   picture.header.stamp = send(image_);
   pictures.publish(picture);
   ASSERT_TRUE(spinUntil([&] { return overlays.size() == 1; }));
@@ -100,6 +108,53 @@ TEST_F(Nodelet, OverlayTakesThePictureThatComesLater) {
   ASSERT_TRUE(spinUntil([&] { return overlays.size() == 2; }));
   EXPECT_EQ(overlays.last()->header.stamp, first->header.stamp);
   EXPECT_EQ(pixel(330, 230, 0), pixel(330, 230, 1));  // grey, tinted red
+}
+
+TEST_F(Nodelet, PicturesAreSubscribedWhileSomebodyListensToTheOverlay) {
+  const ros::Publisher pictures = node_.advertise<sensor_msgs::Image>("/image", 5);
+  Listener<DominantPlane> planes(node_, "/plane_detection/plane");
+  ASSERT_TRUE(waitForSubscription());
+  for (int i = 0; i < 3; ++i) expectTruth(detect(planes, image_));
+  EXPECT_EQ(pictures.getNumSubscribers(), 0U);
+  {
+    Listener<sensor_msgs::Image> overlays(node_, "/plane_detection/overlay");
+    EXPECT_TRUE(spinUntil([&] { return pictures.getNumSubscribers() == 1; }));
+  }
+  EXPECT_TRUE(spinUntil([&] { return pictures.getNumSubscribers() == 0; }));
+}
+
+/// Depth that is not registered has another frame than the picture: pixels of the one are not those
+/// of the other.
+TEST_F(Nodelet, PicturesOfAnotherFrameAreNotPaintedOver) {
+  const ros::Publisher pictures = node_.advertise<sensor_msgs::Image>("/image", 5);
+  Listener<rosgraph_msgs::Log> log(node_, "/rosout");
+  const auto complaints = [&] {
+    return std::count_if(log.messages().begin(), log.messages().end(), [](const auto& line) {
+      return line->msg.find("expected pictures in its frame optical") != std::string::npos &&
+             line->msg.find("got some in rgb_optical on /image") != std::string::npos;
+    });
+  };
+  Listener<sensor_msgs::Image> overlays(node_, "/plane_detection/overlay");
+  ASSERT_TRUE(waitForSubscription());
+  ASSERT_TRUE(spinUntil(
+      [&] { return pictures.getNumSubscribers() > 0 && overlays.connected() && log.connected(); }));
+  sensor_msgs::Image picture = bluePicture();
+  picture.header.frame_id = "rgb_optical";
+  picture.header.stamp = send(image_);
+  pictures.publish(picture);
+  ASSERT_TRUE(spinUntil([&] { return overlays.size() == 1; }));
+  const auto blue = [&] { return overlays.last()->data[230 * overlays.last()->step + 3 * 330]; };
+  const auto green = [&] { return overlays.last()->data[230 * overlays.last()->step + 991]; };
+  EXPECT_EQ(blue(), green()) << "grey, tinted red";
+  EXPECT_TRUE(spinUntil([&] { return complaints() == 1; }));
+  // They are of no use, and their camera may have better to do.
+  EXPECT_TRUE(spinUntil([&] { return pictures.getNumSubscribers() == 0; }));
+  for (std::size_t i = 2; i <= 4; ++i) {
+    send(image_);
+    ASSERT_TRUE(spinUntil([&] { return overlays.size() == i; }));
+    EXPECT_EQ(blue(), green());
+  }
+  EXPECT_EQ(complaints(), 1);
 }
 
 }  // namespace

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <ros/callback_queue_interface.h>
+
+#include <boost/make_shared.hpp>
+#include <functional>
+#include <utility>
+
+namespace dominant_plane_detection {
+
+/// Calls a function in the thread of a callback queue, behind what waits there already. From any
+/// thread; never waits.
+/// @param owner whoever removes the call again, by `queue.removeByID`, before `function` may not be
+/// called any more.
+inline void callLater(ros::CallbackQueueInterface& queue, const void* owner,
+                      std::function<void()> function) {
+  struct Call : ros::CallbackInterface {
+    explicit Call(std::function<void()> f) : function(std::move(f)) {}
+    CallResult call() override {
+      function();
+      return Success;
+    }
+    std::function<void()> function;
+  };
+  queue.addCallback(boost::make_shared<Call>(std::move(function)),
+                    reinterpret_cast<std::uint64_t>(owner));
+}
+
+}  // namespace dominant_plane_detection
