@@ -61,7 +61,9 @@ class BuildTree:
             source.write(header, schemata.HEADER)
         status, output = self._run([
             "cmake", "-S", self.sources, "-B", self.build, "-DCATKIN_ENABLE_TESTING=ON",
-            "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", "-DCMAKE_CXX_FLAGS=-w -include {}".format(header),
+            "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
+            # With assertions an index or an optional that is none stops the program at once.
+            "-DCMAKE_CXX_FLAGS=-w -D_GLIBCXX_ASSERTIONS -include {}".format(header),
             "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG"])
         if status != 0:
             raise BuildError(output)

@@ -137,6 +137,35 @@ TEST(Detector, PlanesThatAreNoGround) {
   EXPECT_STREQ(stateName(detector.detect(chaos.view(), camera).state), "NO_REGION");
 }
 
+TEST(Detector, ImagesHaveAtMost8192PixelsASide) {
+  DominantPlaneDetector detector;
+  const auto stateOf = [&](int width, int height) {
+    const OwnedDepth<std::uint16_t> depth(width, height);
+    const Detection& detection = detector.detect(depth.view(), testCamera(width, height));
+    EXPECT_EQ(detection.image_width, detection.state == State::kBadInput ? 0 : width);
+    EXPECT_EQ(detection.image_height, detection.state == State::kBadInput ? 0 : height);
+    return detection.state;
+  };
+  EXPECT_EQ(stateOf(8192, 1), State::kNoDepth);
+  EXPECT_EQ(stateOf(1, 8192), State::kNoDepth);
+  EXPECT_EQ(stateOf(8193, 1), State::kBadInput);
+  EXPECT_EQ(stateOf(1, 8193), State::kBadInput);
+}
+
+TEST(Detector, UpMayHaveAnyLengthThatIsOne) {
+  const CameraModel camera = testCamera();
+  const auto floor = inMillimetres(planeDepth(camera, kUp, kHeight));
+  DominantPlaneDetector detector;
+  for (const double length : {1.1e-3, 1.0, 1e6}) {
+    Prior prior;
+    prior.expected_up = length * kUp.normalized();
+    EXPECT_TRUE(detector.detect(floor.view(), camera, prior).found()) << length;
+  }
+  Prior none;
+  none.expected_up = 0.9e-3 * kUp.normalized();
+  EXPECT_EQ(detector.detect(floor.view(), camera, none).state, State::kBadInput);
+}
+
 TEST(Detector, ThePriorSaysWhereUpIs) {
   const CameraModel camera = testCamera();
   const auto wall = inMillimetres(planeDepth(camera, {0.0, 0.0, -1.0}, 2.0));

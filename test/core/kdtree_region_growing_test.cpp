@@ -260,6 +260,19 @@ TEST(KdtreeRegionGrowing, WhatIsGivenUpStaysClaimed) {
   EXPECT_EQ(growing.unclaimed(), 0U);
 }
 
+/// What was waiting to be tested when a region was given up is no candidate of the next one.
+TEST(KdtreeRegionGrowing, AfterOneThatIsGivenUpTheNextIsGrownByDefinition) {
+  const Points points = sheet(30, 12);
+  KdtreeRegionGrowing growing;
+  growing.setPoints(points);
+  const std::vector<std::size_t> first =
+      growing.grow({0, 1, 30}, kFine, [](const PlaneMoments&) { return false; }).sequence;
+  ASSERT_EQ(first.size(), 200U);
+  const Seeds seeds{359, 358, 329};
+  for (const std::size_t seed : seeds) ASSERT_FALSE(growing.claimed(seed));
+  EXPECT_EQ(growing.grow(seeds, kFine).sequence, growNaively(points, seeds, kFine, first));
+}
+
 TEST(KdtreeRegionGrowing, RejectedPointsAreLeftForOthers) {
   // A step of 3 cm, on the edge of which both sheets are near enough.
   Points points = sheet(40, 20);
@@ -297,6 +310,24 @@ TEST(KdtreeRegionGrowing, FewSearchesWithEveryPointWithinDelta) {
   growing.setPoints(sheet(100, 50));
   EXPECT_EQ(growing.grow({0, 1, 100}, thresholds).sequence.size(), 5000U);
   EXPECT_LT(growing.effort().searches, 6 * growing.effort().tests);
+}
+
+/// A member whose neighbours are all its own asks for more and more of them at a time.
+TEST(KdtreeRegionGrowing, FewSearchesForManyNeighboursOfOne) {
+  Points points{{0.0, 1.0, 1.0}, {0.3, 1.0, 1.0}, {0.0, 1.0, 1.3}};
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<double> place(-0.05, 0.05);
+  for (int i = 0; i < 1000; ++i) {
+    points.emplace_back(place(generator), 1.05 + 0.01 * place(generator), 1.0 + place(generator));
+  }
+  GrowthThresholds thresholds = kFine;
+  thresholds.delta.offset = 0.1;
+  KdtreeRegionGrowing growing;
+  growing.setPoints(points);
+  EXPECT_EQ(growing.grow({0, 1, 2}, thresholds).sequence.size(), 3U) << "all are off its plane";
+  EXPECT_EQ(growing.effort().tests, 1000U);
+  // Eight, 16 and 32 of the first member, and then 64 at a time; the others have none.
+  EXPECT_LE(growing.effort().searches, 25U);
 }
 
 TEST(KdtreeRegionGrowing, DegenerateInputsGiveTheSeeds) {

@@ -17,6 +17,17 @@ namespace {
 
 TEST(Parameters, DefaultsAreValid) { EXPECT_TRUE(findErrors(Parameters()).empty()); }
 
+TEST(Parameters, LimitsHoldTheDefaultsAndEveryAlgorithm) {
+  const Parameters parameters;
+  visitParameters(parameters, [&](const ParameterInfo& info, const auto& value) {
+    EXPECT_LE(info.min, static_cast<double>(value)) << info.name;
+    EXPECT_GE(info.max, static_cast<double>(value)) << info.name;
+    if (std::string(info.name) != "algorithm") return;
+    EXPECT_EQ(info.min, 0.0);
+    EXPECT_EQ(info.max, static_cast<double>(Algorithm::kKdtree));
+  });
+}
+
 TEST(Parameters, TableNamesAreUnique) {
   const Parameters parameters;
   std::set<std::string> names;

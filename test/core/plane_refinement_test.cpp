@@ -101,6 +101,19 @@ TEST(PlaneRefinement, ConvergesFromATiltedStart) {
   const auto far = fitPlane(scene.judge, region, start, 5.0F);
   ASSERT_TRUE(far);
   EXPECT_EQ(far->fits, 4U);
+  // From farther still it would go on, but has to end.
+  OwnedDepth<float> rough = floorDepth();
+  addNoise(
+      rough, [](double z) { return 1e-3 * z * z; }, 3);
+  TileScene noisy(rough, kCamera);
+  const HessePlane farther = {(kFloor.normal + Eigen::Vector3d(0.138, 0.069, 0.0)).normalized(),
+                              1.0};
+  const auto ended = fitPlane(noisy.judge, region, farther, 0.6F);
+  ASSERT_TRUE(ended);
+  EXPECT_EQ(ended->fits, 4U);
+  const auto further = fitPlane(noisy.judge, region, ended->plane, 0.6F);
+  ASSERT_TRUE(further);
+  EXPECT_GT(angleBetween(ended->plane, further->plane), 0.01);
 }
 
 /// A tenth of a millimetre, or of a milliradian, is final.

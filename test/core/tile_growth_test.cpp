@@ -57,6 +57,11 @@ TEST_F(TileGrowthTest, APlaneIsOneRegion) {
   EXPECT_EQ(growth_.tests(), 1200U - 9U);
 }
 
+TEST_F(TileGrowthTest, NothingIsCountedBeforeAnythingIsGrown) {
+  EXPECT_EQ(growth_.fits(), 0U);
+  EXPECT_EQ(growth_.tests(), 0U);
+}
+
 TEST_F(TileGrowthTest, ThePlaneIsTheFitOfTheTiles) {
   addNoise(
       depth_, [](double) { return 0.003; }, 5);
