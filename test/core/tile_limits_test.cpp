@@ -59,7 +59,8 @@ class CloserThanDelta : public testing::Test {
   /// Two tiles, so far apart along a direction that `gap` is left between their points.
   bool close(const Eigen::Vector3d& direction, double gap) {
     TileMoments tiles = tilesAt({1.0F, 1.0F});
-    tiles.xx = {3e-4F, 1e-4F, 0, 0, 0, 0, 0, 0};
+    tiles.xx[0] = 3e-4F;
+    tiles.xx[1] = 1e-4F;
     TileLimits limits;
     limits.set(tiles, kThresholds);
     limits.delta[0] = 0.03F;
