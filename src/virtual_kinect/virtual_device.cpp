@@ -30,11 +30,11 @@ std::vector<OniVideoMode> modesOf(const std::vector<OniPixelFormat>& formats) {
 }  // namespace
 
 VirtualDevice::VirtualDevice(const DeviceDescription& description, Driver driver)
-    : PluginDevice(description.serial, driver.explain),
+    : PluginDevice(description.uri.serial, driver.explain),
+      uri_(description.uri),
       camera_(description.scene),
-      clock_(description.drift),
+      clock_(description.uri.drift),
       begin_(DeviceClock::Steady::now()),
-      start_(description.start),
       driver_(std::move(driver)) {
   addSensor(ONI_SENSOR_DEPTH, modesOf({ONI_PIXEL_FORMAT_DEPTH_1_MM, ONI_PIXEL_FORMAT_SHIFT_9_2}));
   addSensor(ONI_SENSOR_COLOR, modesOf({ONI_PIXEL_FORMAT_RGB888}));
@@ -48,6 +48,16 @@ oni::driver::StreamBase* VirtualDevice::createStream(OniSensorType sensor) {
 
 OniStatus VirtualDevice::getProperty(int id, void* data, int* size) {
   return id == kFrameRecords ? copyRecords(data, size) : PluginDevice::getProperty(id, data, size);
+}
+
+OniStatus VirtualDevice::setProperty(int id, const void* data, int size) {
+  OniImageRegistrationMode mode = ONI_IMAGE_REGISTRATION_OFF;
+  const bool on = id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION &&
+                  takeProperty(mode, data, size) == ONI_STATUS_OK &&
+                  mode == ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR;
+  if (!on || uri_.registers) return PluginDevice::setProperty(id, data, size);
+  explain("registration fails, as it was told to");
+  return ONI_STATUS_ERROR;
 }
 
 OniBool VirtualDevice::isPropertySupported(int id) {
@@ -64,6 +74,12 @@ OniStatus VirtualDevice::invoke(int command, void* data, int size) {
     return ONI_STATUS_OK;
   }
   if (!isCommandSupported(command)) return ONI_STATUS_NOT_SUPPORTED;
+  if (command == kRefuseStart) {
+    std::int32_t sensor = 0;
+    const OniStatus status = takeProperty(sensor, data, size);
+    if (status == ONI_STATUS_OK) refused_ = sensor;
+    return status;
+  }
   double value = 0.0;
   if (takeProperty(value, data, size) != ONI_STATUS_OK) return ONI_STATUS_BAD_PARAMETER;
   if (command == kUnplug) driver_.unplug_after(value);
@@ -73,12 +89,13 @@ OniStatus VirtualDevice::invoke(int command, void* data, int size) {
 }
 
 OniBool VirtualDevice::isCommandSupported(int command) {
-  return command == kStall || command == kUnplug || command == kReplugAfter || command == kDrift;
+  return command == kStall || command == kUnplug || command == kReplugAfter || command == kDrift ||
+         command == kRefuseStart;
 }
 
 double VirtualDevice::sceneTime(DeviceClock::Steady::time_point time) const {
   const std::chrono::duration<double> passed = time - begin_;
-  return camera_.sceneTime(start_ + passed.count());
+  return camera_.sceneTime(uri_.start + passed.count());
 }
 
 void VirtualDevice::record(const FrameRecord& record) {

@@ -10,15 +10,14 @@
 #include "virtual_kinect/device_clock.h"
 #include "virtual_kinect/scene_camera.h"
 #include "virtual_kinect/virtual_kinect.h"
+#include "virtual_kinect/virtual_uri.h"
 
 namespace dominant_plane_detection::virtual_kinect {
 
 /// What a virtual device is made from.
 struct DeviceDescription {
-  std::string serial;
+  VirtualUri uri;
   Scene scene;
-  double start = 0.0;  ///< [s] on the scene's camera path
-  double drift = 0.0;  ///< [-] by which the clock is fast
 };
 
 /// An opened virtual Kinect: depth in mm and as raw disparity, colour, infrared.
@@ -35,6 +34,7 @@ class VirtualDevice : public openni2_plugin::PluginDevice {
 
   oni::driver::StreamBase* createStream(OniSensorType sensor) override;
   OniStatus getProperty(int id, void* data, int* size) override;
+  OniStatus setProperty(int id, const void* data, int size) override;
   OniBool isPropertySupported(int id) override;
   OniStatus invoke(int command, void* data, int size) override;
   OniBool isCommandSupported(int command) override;
@@ -47,6 +47,9 @@ class VirtualDevice : public openni2_plugin::PluginDevice {
   /// A stream that began at another number than the device has now is silent.
   int stalls() const { return stalls_; }
   bool gone() const { return gone_; }
+  bool starts(OniSensorType sensor) const { return refused_ != static_cast<int>(sensor); }
+  /// @return [-] share of a frame that is sent.
+  double sent() const { return uri_.sent; }
   void record(const FrameRecord& record);
 
   // For its driver.
@@ -59,14 +62,15 @@ class VirtualDevice : public openni2_plugin::PluginDevice {
   std::optional<openni2_plugin::Acceleration> acceleration() override;
   OniStatus copyRecords(void* data, int* size) const;
 
+  VirtualUri uri_;
   SceneCamera camera_;
   DeviceClock clock_;
   DeviceClock::Steady::time_point begin_;
-  double start_;
   Driver driver_;
   std::atomic<bool> gone_{false};
   std::atomic<int> stalls_{0};
-  mutable std::mutex mutex_;  ///< of what follows
+  std::atomic<int> refused_{0};  ///< sensor whose streams do not start; 0: none
+  mutable std::mutex mutex_;     ///< of what follows
   std::deque<FrameRecord> records_;
 };
 

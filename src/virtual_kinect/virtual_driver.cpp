@@ -3,10 +3,12 @@
 
 #include <dlfcn.h>
 
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <thread>
 
 #include "virtual_kinect/scheduler.h"
 #include "virtual_kinect/virtual_device.h"
@@ -62,9 +64,10 @@ class VirtualDriver : public oni::driver::DriverBase {
   }
 
   oni::driver::DeviceBase* deviceOpen(const char* uri, const char* /*mode*/) override {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    Plug& plug = plugs_.at(uri);
     const std::string name = uri;
+    std::this_thread::sleep_for(std::chrono::duration<double>(slownessOf(name)));
+    const std::lock_guard<std::mutex> lock(mutex_);
+    Plug& plug = plugs_.at(name);
     VirtualDevice::Driver driver;
     driver.unplug_after = [this, name](double delay) {
       scheduler_->after(delay, [this, name] { unplug(name); });
@@ -74,8 +77,7 @@ class VirtualDriver : public oni::driver::DriverBase {
       plugs_.at(name).replug = delay;
     };
     driver.explain = [this](const std::string& text) { explain(text); };
-    plug.device = new VirtualDevice({plug.uri.serial, plug.scene, plug.uri.start, plug.uri.drift},
-                                    std::move(driver));
+    plug.device = new VirtualDevice({plug.uri, plug.scene}, std::move(driver));
     scheduleFaults(name, plug);
     return plug.device;
   }
@@ -104,6 +106,12 @@ class VirtualDriver : public oni::driver::DriverBase {
 
   void explain(const std::string& text) {
     getServices().errorLoggerAppend("Virtual Kinect: %s", text.c_str());
+  }
+
+  /// @return [s] that opening the device takes.
+  double slownessOf(const std::string& uri) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return plugs_.at(uri).uri.slow;
   }
 
   void scheduleFaults(const std::string& uri, Plug& plug) {

@@ -29,6 +29,9 @@ constexpr int kStall = 0x6b76'0004;
 /// Command: `double`, [-] by which the device's clock is fast from now on.
 constexpr int kDrift = 0x6b76'0005;
 
+/// Command: `std::int32_t`, an OniSensorType, whose streams do not start from now on.
+constexpr int kRefuseStart = 0x6b76'0006;
+
 /// [m] the colour camera stands to the right of the depth camera, as on a Kinect v1.
 constexpr double kColourOffset = 0.025;
 

@@ -20,6 +20,10 @@ VirtualStream::~VirtualStream() { stop(); }
 OniStatus VirtualStream::start() {
   if (thread_.joinable()) return ONI_STATUS_OK;
   if (device_.gone()) return ONI_STATUS_NO_DEVICE;
+  if (!device_.starts(sensor())) {
+    device_.explain("the stream does not start, as it was told to");
+    return ONI_STATUS_ERROR;
+  }
   if (!device_.beginStreaming(sensor())) return ONI_STATUS_OUT_OF_FLOW;
   stopping_ = false;
   thread_ = std::thread([this] { run(); });
@@ -57,6 +61,7 @@ void VirtualStream::run() {
     if (running && stalls == device_.stalls() && !device_.gone()) {
       describe(static_cast<int>(number), static_cast<std::uint64_t>(device_.clock().at(due)),
                *frame);
+      frame->dataSize = static_cast<int>(device_.sent() * frame->dataSize);
       record.timestamp = frame->timestamp;
       record.address = reinterpret_cast<std::uint64_t>(frame->data);
       record.raised = nanoseconds<Steady>();

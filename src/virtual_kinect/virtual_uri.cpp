@@ -19,11 +19,10 @@ double number(const std::string& name, const std::string& text) {
 }
 
 void setOption(VirtualUri& uri, const std::string& name, const std::string& value) {
-  const std::map<std::string, double*> numbers = {{"start", &uri.start},
-                                                  {"drift", &uri.drift},
-                                                  {"unplug", &uri.unplug},
-                                                  {"replug", &uri.replug},
-                                                  {"stall", &uri.stall}};
+  const std::map<std::string, double*> numbers = {{"start", &uri.start},   {"drift", &uri.drift},
+                                                  {"unplug", &uri.unplug}, {"replug", &uri.replug},
+                                                  {"stall", &uri.stall},   {"sent", &uri.sent},
+                                                  {"slow", &uri.slow}};
   const auto found = numbers.find(name);
   if (found != numbers.end()) {
     *found->second = number(name, value);
@@ -33,10 +32,13 @@ void setOption(VirtualUri& uri, const std::string& name, const std::string& valu
     uri.sensor = value;
   } else if (name == "noise") {
     uri.noise = number(name, value) != 0.0;
+  } else if (name == "registers") {
+    uri.registers = number(name, value) != 0.0;
   } else {
     throw std::invalid_argument(
         "there is no option '" + name +
-        "'; there are serial, sensor, noise, start, drift, unplug, replug, stall");
+        "'; there are serial, sensor, noise, start, drift, unplug, replug, stall, sent, slow, "
+        "registers");
   }
 }
 

@@ -17,6 +17,9 @@ struct VirtualUri {
   double unplug = -1.0;         ///< [s] after opening, < 0: never
   double replug = -1.0;         ///< [s] after unplugging, < 0: never
   double stall = -1.0;          ///< [s] after opening, at which streams fall silent, < 0: never
+  double sent = 1.0;      ///< [-] share of each frame that is sent; the rest is an earlier one's
+  double slow = 0.0;      ///< [s] that opening takes
+  bool registers = true;  ///< or fails to, though it says that it could
 };
 
 /// @param scenes folder in which a scene without a slash in its name is looked for; ".yaml" may be
