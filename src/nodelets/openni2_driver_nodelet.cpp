@@ -4,15 +4,18 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "calibration/depth_calibration_file.h"
-#include "ros/depth_correction.h"
 
 namespace dominant_plane_detection {
 namespace {
 
+constexpr double kSoon = 0.01;   // [s] after onInit, when the queue is served
+constexpr double kPeriod = 1.0;  // [s] of diagnostics
+
 /// What is read once, at the start.
 const std::set<std::string> kStartParameters = {
-    "device_id",           "depth_frame_id",     "rgb_frame_id",     "depth_camera_info_url",
-    "rgb_camera_info_url", "ir_camera_info_url", "depth_calibration"};
+    "device_id",           "depth_frame_id",     "rgb_frame_id",      "depth_camera_info_url",
+    "rgb_camera_info_url", "ir_camera_info_url", "depth_calibration", "depth_ir_offset_x",
+    "depth_ir_offset_y"};
 
 DriverNames readNames(const ros::NodeHandle& node) {
   DriverNames names;
@@ -21,6 +24,8 @@ DriverNames readNames(const ros::NodeHandle& node) {
   node.param("depth_camera_info_url", names.depth_camera_info_url, names.depth_camera_info_url);
   node.param("rgb_camera_info_url", names.rgb_camera_info_url, names.rgb_camera_info_url);
   node.param("ir_camera_info_url", names.ir_camera_info_url, names.ir_camera_info_url);
+  node.param("depth_ir_offset_x", names.depth_ir_offset_x, names.depth_ir_offset_x);
+  node.param("depth_ir_offset_y", names.depth_ir_offset_y, names.depth_ir_offset_y);
   return names;
 }
 
@@ -46,62 +51,66 @@ DepthCalibration readCalibration(const ros::NodeHandle& node) {
 }  // namespace
 
 OpenNI2DriverNodelet::~OpenNI2DriverNodelet() {
-  // Each of these waits for what it may be doing in another thread: none of the locks is held.
-  reconfigure_.reset();
-  serial_server_.shutdown();
-  std::unique_ptr<DeviceSession> session;
-  {
-    const std::lock_guard<std::mutex> lock(listeners_mutex_);
-    session = std::move(session_);
-  }
-  session.reset();  // no image is published from here on
-  outputs_.shutdown();
-  diagnostics_.reset();
+  // The session first: whoever waits for the camera to follow parameters is answered, and no image
+  // is published from here on.
+  if (session_) session_->end();
+  if (reconfigure_spinner_) reconfigure_spinner_->stop();
 }
 
 void OpenNI2DriverNodelet::onInit() {
+  timer_ = getNodeHandle().createWallTimer(ros::WallDuration(kSoon),
+                                           [this](const ros::WallTimerEvent&) { onTimer(); });
+}
+
+void OpenNI2DriverNodelet::onTimer() {
   try {
-    start();
+    if (!session_) {
+      timer_.setPeriod(ros::WallDuration(kPeriod));
+      start();
+    }
+    // Somebody may have come before there was anything to call.
+    followListeners();
+    diagnostics_->report(session_->status());
   } catch (const std::exception& error) {
-    NODELET_ERROR_STREAM("Could not start: " << error.what());
+    NODELET_ERROR_STREAM_THROTTLE(60.0, "Could not start: " << error.what());
   }
 }
 
 void OpenNI2DriverNodelet::start() {
   const ros::NodeHandle& node = getNodeHandle();
-  ros::NodeHandle& private_node = getPrivateNodeHandle();
-  calibration_ = readCalibration(private_node);
+  const ros::NodeHandle& private_node = getPrivateNodeHandle();
+  corrector_ = std::make_unique<DepthCorrector>(readCalibration(private_node));
   setParameters(
       loadParameters<DriverParameters, OpenNI2DriverConfig>(private_node, kStartParameters));
-  {
-    // Somebody may connect before everything is in place, and has to wait until it is.
-    const std::lock_guard<std::mutex> lock(listeners_mutex_);
-    outputs_.advertise(node, readNames(private_node), [this] { onListenersChanged(); });
-    DeviceSession::Callbacks callbacks;
-    callbacks.frame = [this](StreamKind kind, const SensorFrame& frame) { onFrame(kind, frame); };
-    callbacks.opened = [this](const CameraDevice& camera) { onOpened(camera); };
-    callbacks.acceleration = [this](const openni2_plugin::Acceleration& acceleration) {
-      onAcceleration(acceleration);
-    };
-    diagnostics_ = std::make_unique<DriverDiagnostics>(node, private_node, getName(), [this] {
-      const std::lock_guard<std::mutex> guard(listeners_mutex_);
-      return session_ ? session_->status() : SessionStatus();
-    });
-    session_ = std::make_unique<DeviceSession>(readDeviceId(private_node), parameters_.camera,
-                                               parameters_.watchdog_timeout, std::move(callbacks));
-  }
-  onListenersChanged();
+  outputs_.advertise(node, readNames(private_node), [this] { followListeners(); });
+  diagnostics_ = std::make_unique<DriverDiagnostics>(node, private_node, getName());
+  DeviceSession::Callbacks callbacks;
+  callbacks.frame = [this](StreamKind kind, const SensorFrame& frame) { onFrame(kind, frame); };
+  callbacks.opened = [this](const CameraDevice& camera) { onOpened(camera); };
+  callbacks.acceleration = [this](const openni2_plugin::Acceleration& acceleration) {
+    onAcceleration(acceleration);
+  };
+  const DriverParameters now = parameters();
+  session_ = std::make_unique<DeviceSession>(readDeviceId(private_node), now.camera,
+                                             now.watchdog_timeout, std::move(callbacks));
   serial_server_ =
       getNodeHandle().advertiseService("get_serial", &OpenNI2DriverNodelet::onGetSerial, this);
-  reconfigure_ = std::make_unique<dynamic_reconfigure::Server<OpenNI2DriverConfig>>(
-      reconfigure_mutex_, private_node);
-  reconfigure_->setCallback(
-      [this](OpenNI2DriverConfig& config, std::uint32_t) { onReconfigure(config); });
+  offerParameters();
 }
 
-void OpenNI2DriverNodelet::onListenersChanged() {
-  const std::lock_guard<std::mutex> lock(listeners_mutex_);
-  if (!session_) return;
+/// In a queue of their own, as a camera may take its time to follow them.
+void OpenNI2DriverNodelet::offerParameters() {
+  ros::NodeHandle own(getPrivateNodeHandle());
+  own.setCallbackQueue(&reconfigure_queue_);
+  reconfigure_ = std::make_unique<dynamic_reconfigure::Server<OpenNI2DriverConfig>>(own);
+  reconfigure_->setCallback(
+      [this](OpenNI2DriverConfig& config, std::uint32_t) { onReconfigure(config); });
+  reconfigure_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &reconfigure_queue_);
+  reconfigure_spinner_->start();
+}
+
+void OpenNI2DriverNodelet::followListeners() {
+  if (!session_) return;  // `start` did not get so far
   for (const StreamKind kind : kAllStreams) {
     const bool wanted = outputs_.wants(kind);
     diagnostics_->setWanted(kind, wanted);
@@ -112,37 +121,31 @@ void OpenNI2DriverNodelet::onListenersChanged() {
 
 void OpenNI2DriverNodelet::onFrame(StreamKind kind, const SensorFrame& frame) {
   try {
-    const ros::Time arrival = ros::Time::now();
-    const DriverParameters now = parameters();
-    const double seconds =
-        clocks_[static_cast<int>(kind)].stamp(frame.device_time, arrival.toSec()) + now.time_offset;
-    const ros::Time stamp(std::max(seconds, 0.0));
-    if (kind == StreamKind::kDepth) toDepth(frame, stamp);
+    const ros::Time stamp = stampOf(kind, frame);
     diagnostics_->count(kind, frame);
-    outputs_.publish(kind, frame, stamp);
+    sensor_msgs::ImagePtr image = frame.image;
+    if (kind == StreamKind::kDepth) {
+      image = corrector_->correct(frame.image, frame.raw);
+      if (frame.raw && outputs_.wantsRawDisparity()) {
+        outputs_.publishRawDisparity(frame.image, stamp);
+      }
+    }
+    outputs_.publish(kind, frame.registered, image, stamp);
   } catch (const std::exception& error) {
     NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped an image: " << error.what());
   }
 }
 
-void OpenNI2DriverNodelet::toDepth(const SensorFrame& frame, const ros::Time& stamp) {
-  if (!frame.raw) {
-    const DriverParameters now = parameters();
-    correctDepth(now.z_offset, now.z_scale, *frame.image);
-    return;
-  }
-  if (outputs_.wantsRawDisparity()) outputs_.publishRawDisparity(*frame.image, stamp);
-  std::shared_ptr<const DisparityTable> table;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    table = disparity_table_;
-  }
-  toMillimetres(*table, *frame.image);
+ros::Time OpenNI2DriverNodelet::stampOf(StreamKind kind, const SensorFrame& frame) {
+  const double arrival = ros::Time::now().toSec();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const double seconds = clock_.stamp(static_cast<std::size_t>(kind), frame.device_time, arrival);
+  return ros::Time(std::max(seconds + parameters_.time_offset, 0.0));
 }
 
 void OpenNI2DriverNodelet::onAcceleration(const openni2_plugin::Acceleration& acceleration) {
   try {
-    outputs_.publish(acceleration, ros::Time::now());
+    outputs_.publish(acceleration, ros::Time::now() + ros::Duration(parameters().time_offset));
   } catch (const std::exception& error) {
     NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped a reading: " << error.what());
   }
@@ -151,6 +154,8 @@ void OpenNI2DriverNodelet::onAcceleration(const openni2_plugin::Acceleration& ac
 void OpenNI2DriverNodelet::onOpened(const CameraDevice& camera) {
   outputs_.setCamera(camera);
   diagnostics_->beginNumbers();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  clock_ = ClockFilter();
 }
 
 void OpenNI2DriverNodelet::onReconfigure(OpenNI2DriverConfig& config) {
@@ -159,7 +164,6 @@ void OpenNI2DriverNodelet::onReconfigure(OpenNI2DriverConfig& config) {
   try {
     const auto wanted = fromConfig<DriverParameters>(config);
     error = joined(findErrors(wanted));
-    // The camera may take its time to answer, and this is called from onInit as well.
     const bool ask = error.empty() && !(wanted.camera == old.camera);
     if (ask) error = session_->apply(wanted.camera);
     if (error.empty()) {
@@ -176,8 +180,7 @@ void OpenNI2DriverNodelet::onReconfigure(OpenNI2DriverConfig& config) {
 
 bool OpenNI2DriverNodelet::onGetSerial(GetSerial::Request& /*request*/,
                                        GetSerial::Response& response) {
-  const std::lock_guard<std::mutex> lock(listeners_mutex_);
-  if (session_) response.serial = session_->status().camera.serial;
+  response.serial = session_->status().camera.serial;
   return true;
 }
 
@@ -187,11 +190,9 @@ DriverParameters OpenNI2DriverNodelet::parameters() const {
 }
 
 void OpenNI2DriverNodelet::setParameters(const DriverParameters& parameters) {
-  const auto table =
-      std::make_shared<const DisparityTable>(calibration_, parameters.z_offset, parameters.z_scale);
+  corrector_->set(parameters.z_offset, parameters.z_scale);
   const std::lock_guard<std::mutex> lock(mutex_);
   parameters_ = parameters;
-  disparity_table_ = table;
 }
 
 }  // namespace dominant_plane_detection

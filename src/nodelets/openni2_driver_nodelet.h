@@ -4,14 +4,15 @@
 #include <dominant_plane_detection/OpenNI2DriverConfig.h>
 #include <dynamic_reconfigure/server.h>
 #include <nodelet/nodelet.h>
+#include <ros/callback_queue.h>
+#include <ros/spinner.h>
 
-#include <boost/thread/recursive_mutex.hpp>
 #include <memory>
 #include <mutex>
 
-#include "core/disparity_table.h"
 #include "openni2/clock_filter.h"
 #include "openni2/device_session.h"
+#include "ros/depth_corrector.h"
 #include "ros/driver_diagnostics.h"
 #include "ros/driver_outputs.h"
 #include "ros/driver_parameters.h"
@@ -20,39 +21,44 @@ namespace dominant_plane_detection {
 
 /// An OpenNI2 camera as a nodelet: depth, colour and infrared images in the memory that the
 /// camera's driver wrote; streams run while somebody listens.
+///
+/// Which thread calls what: the nodelet's own callback queue the timer (which also starts it),
+/// listeners that come and go, and get_serial, one after the other; a thread of each stream
+/// `onFrame`; the session's thread `onOpened` and `onAcceleration`; a thread for parameters
+/// `onReconfigure`, which waits for the camera. `onInit` and the destructor are called in the
+/// manager's threads, before the queue's first callback and after its last.
 class OpenNI2DriverNodelet : public nodelet::Nodelet {
  public:
   ~OpenNI2DriverNodelet() override;
 
  private:
   void onInit() override;
+  void onTimer();
   void start();
-  void onListenersChanged();
-  /// In a thread of the camera's, one frame after the other.
+  void offerParameters();
+  void followListeners();
   void onFrame(StreamKind kind, const SensorFrame& frame);
-  /// In the session's thread.
   void onOpened(const CameraDevice& camera);
   void onReconfigure(OpenNI2DriverConfig& config);
-  /// In the session's thread.
   void onAcceleration(const openni2_plugin::Acceleration& acceleration);
-  void toDepth(const SensorFrame& frame, const ros::Time& stamp);
+  ros::Time stampOf(StreamKind kind, const SensorFrame& frame);
   bool onGetSerial(GetSerial::Request& request, GetSerial::Response& response);
   DriverParameters parameters() const;
   void setParameters(const DriverParameters& parameters);
 
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< of what follows; never held while anything else is called
   DriverParameters parameters_;
-  std::shared_ptr<const DisparityTable> disparity_table_;
+  ClockFilter clock_;
 
-  DepthCalibration calibration_;
-  ClockFilter clocks_[kStreamKinds];  ///< of the camera's thread alone
+  std::unique_ptr<DepthCorrector> corrector_;
   DriverOutputs outputs_;
   std::unique_ptr<DriverDiagnostics> diagnostics_;
-  std::mutex listeners_mutex_;  ///< of `session_` while listeners come and go
   std::unique_ptr<DeviceSession> session_;
   ros::ServiceServer serial_server_;
-  boost::recursive_mutex reconfigure_mutex_;
+  ros::CallbackQueue reconfigure_queue_;
   std::unique_ptr<dynamic_reconfigure::Server<OpenNI2DriverConfig>> reconfigure_;
+  std::unique_ptr<ros::AsyncSpinner> reconfigure_spinner_;
+  ros::WallTimer timer_;
 };
 
 }  // namespace dominant_plane_detection

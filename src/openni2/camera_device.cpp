@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "openni2/lasting_threads.h"
-
 namespace dominant_plane_detection {
 
 CameraDevice::CameraDevice(std::shared_ptr<OpenNi2Runtime> runtime, const std::string& uri,
@@ -15,44 +13,14 @@ CameraDevice::CameraDevice(std::shared_ptr<OpenNi2Runtime> runtime, const std::s
   description_ = {info.getUri(), info.getVendor(), info.getName(), serialNumber(*device_)};
   for (const StreamKind kind : kAllStreams) {
     if (!SensorStream::isIn(*device_, kind)) continue;
-    const auto arrived = [this, kind] {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      arrived_[static_cast<int>(kind)] = true;
-      changed_.notify_one();
-    };
     streams_[static_cast<int>(kind)] = std::make_unique<SensorStream>(
-        *device_, kind, arrived,
-        [kind, callback](const SensorFrame& frame) { callback(kind, frame); });
+        *device_, kind, [kind, callback](const SensorFrame& frame) { callback(kind, frame); });
   }
-  delivery_ = runInLastingThread([this] { deliverFrames(); });
 }
 
 CameraDevice::~CameraDevice() {
-  for (auto& stream : streams_) {
-    if (stream) stream->stop();
-  }
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    ending_ = true;
-  }
-  changed_.notify_one();
-  delivery_.wait();
   for (auto& stream : streams_) stream.reset();
   runtime_->close(std::move(device_));
-}
-
-void CameraDevice::deliverFrames() {
-  const auto any = [this] { return std::find(arrived_, arrived_ + kStreamKinds, true); };
-  std::unique_lock<std::mutex> lock(mutex_);
-  for (;;) {
-    changed_.wait(lock, [&] { return ending_ || any() != arrived_ + kStreamKinds; });
-    if (ending_) return;
-    bool* const arrived = any();
-    *arrived = false;
-    lock.unlock();
-    streams_[arrived - arrived_]->deliver();
-    lock.lock();
-  }
 }
 
 bool CameraDevice::isRecording() const { return device_->isFile(); }
@@ -107,17 +75,21 @@ CameraSettings CameraDevice::possible(CameraSettings settings) const {
   return settings;
 }
 
-void CameraDevice::apply(const CameraSettings& settings) {
+std::string CameraDevice::apply(const CameraSettings& settings) {
   const auto registration = settings.depth_registration ? openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR
                                                         : openni::IMAGE_REGISTRATION_OFF;
-  if (device_->isImageRegistrationModeSupported(registration)) {
-    device_->setImageRegistrationMode(registration);
+  std::string problem;
+  if (device_->isImageRegistrationModeSupported(registration) &&
+      device_->setImageRegistrationMode(registration) != openni::STATUS_OK) {
+    problem = std::string("depth_registration: the camera does not turn it ") +
+              (settings.depth_registration ? "on" : "off") + ": " + lastOpenNi2Error();
   }
   if (has(StreamKind::kColour)) {
     stream(StreamKind::kColour).setAutomatic(settings.auto_exposure, settings.auto_white_balance);
   }
   openni::PlaybackControl* playback = device_->getPlaybackControl();
   if (playback != nullptr) playback->setRepeatEnabled(settings.repeat);
+  return problem;
 }
 
 void CameraDevice::start(StreamKind kind, const CameraSettings& settings) {

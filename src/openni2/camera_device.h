@@ -1,9 +1,6 @@
 #pragma once
 
-#include <condition_variable>
-#include <future>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -45,7 +42,7 @@ class CameraDevice {
  public:
   using FrameCallback = std::function<void(StreamKind, const SensorFrame&)>;
 
-  /// @param callback called in a thread of the device, one frame after the other.
+  /// @param callback called in a thread of each stream, one frame after the other.
   /// @throw std::runtime_error with OpenNI2's reason.
   CameraDevice(std::shared_ptr<OpenNi2Runtime> runtime, const std::string& uri,
                const FrameCallback& callback);
@@ -72,12 +69,12 @@ class CameraDevice {
   CameraSettings possible(CameraSettings settings) const;
   /// Everything but the modes, which `start` sets.
   /// @pre the depth stream has been stopped where `depth_registration` changes.
-  void apply(const CameraSettings& settings);
+  /// @return why the device does not do it after all; empty when it does.
+  std::string apply(const CameraSettings& settings);
   /// @throw std::runtime_error with the device's reason.
   void start(StreamKind kind, const CameraSettings& settings);
 
  private:
-  void deliverFrames();
   bool hasMode(StreamKind kind, const CameraSettings& settings) const;
   bool canRegister() const;
   const std::unique_ptr<SensorStream>& at(StreamKind kind) const {
@@ -88,12 +85,6 @@ class CameraDevice {
   std::unique_ptr<openni::Device> device_;
   CameraDescription description_;
   std::unique_ptr<SensorStream> streams_[kStreamKinds];
-
-  std::mutex mutex_;  ///< of what follows
-  std::condition_variable changed_;
-  bool arrived_[kStreamKinds] = {};  ///< a frame that is not delivered yet
-  bool ending_ = false;
-  std::future<void> delivery_;
 };
 
 }  // namespace dominant_plane_detection

@@ -10,30 +10,63 @@ constexpr double kLate = 0.1;             // [s] no frame is on its way that lon
 constexpr double kLatePatience = 1.0;     // [s] for which all frames have to be late
 constexpr double kStep = 1e-6;            // [s] least distance of two stamps
 constexpr double kSetBack = 0.5;          // [s] by which a clock that was set back is known
+constexpr double kStraggler = 0.5;        // [s] within which streams follow the others in a jump
+constexpr std::size_t kGiven = 32;        // [#] stamps in which equal ones are looked for
 
 }  // namespace
 
-bool ClockFilter::jumped(double device, double arrival) const {
-  return device <= last_->device ||              // restarted
-         arrival < last_->arrival - kSetBack ||  // this computer's clock was set back
-         device - late_since_ > kLatePatience;   // one of the clocks was set
+/// While one stream of a looping recording has begun anew another may still bring its last frames.
+bool ClockFilter::isOfEarlierEpoch(const Stream& stream, std::uint64_t device,
+                                   double arrival) const {
+  return stream.last && stream.epoch + 1 == epoch_ && device >= stream.last->device &&
+         arrival - restarted_at_ < kStraggler;
 }
 
-double ClockFilter::stamp(std::uint64_t device_us, double arrival) {
+void ClockFilter::beginEpoch(Stream& stream, double device, double offset) {
+  earlier_offset_ = offset_;
+  offset_ = offset;
+  late_since_ = newest_device_ = device;
+  given_.clear();
+  stream.epoch = ++epoch_;
+}
+
+std::optional<double> ClockFilter::given(std::uint64_t device) const {
+  const auto found = std::find_if(given_.begin(), given_.end(),
+                                  [&](const Given& each) { return each.device == device; });
+  return found == given_.end() ? std::nullopt : std::make_optional(found->stamp);
+}
+
+double ClockFilter::stamp(std::size_t number, std::uint64_t device_us, double arrival) {
+  Stream& stream = streams_[number];
   const double device = 1e-6 * static_cast<double>(device_us);
   const double offset = arrival - device;
-  if (!last_ || jumped(device, arrival)) {
-    offset_ = offset;
-    late_since_ = device;
+  const bool set_back = stream.last && arrival < stream.last->arrival - kSetBack;
+  double stamp = 0.0;
+  if (isOfEarlierEpoch(stream, device_us, arrival)) {
+    stamp = device + earlier_offset_;
   } else {
-    offset_ = std::min(offset, offset_ + kDriftAllowance * (device - last_->device));
+    const bool restarted = stream.last && stream.epoch == epoch_ && device_us < stream.last->device;
+    const bool set = device - late_since_ > kLatePatience;
+    if (epoch_ == 0 || restarted || set_back || set) {
+      beginEpoch(stream, device, offset);
+      restarted_at_ = restarted ? arrival : arrival - kStraggler;
+    } else {
+      const double passed = std::max(device - newest_device_, 0.0);
+      offset_ = std::min(offset, offset_ + kDriftAllowance * passed);
+    }
+    stream.epoch = epoch_;
+    newest_device_ = std::max(newest_device_, device);
+    if (offset - offset_ < kLate) late_since_ = std::max(late_since_, device);
+    if (const std::optional<double> equal = given(device_us)) {
+      stamp = *equal;
+    } else {
+      stamp = device + offset_;
+      if (stream.last && !set_back) stamp = std::max(stamp, stream.last->stamp + kStep);
+      given_.push_back({device_us, stamp});
+      if (given_.size() > kGiven) given_.pop_front();
+    }
   }
-  if (offset - offset_ < kLate) late_since_ = device;
-
-  double stamp = device + offset_;
-  const bool set_back = last_ && arrival < last_->arrival - kSetBack;
-  if (last_ && !set_back) stamp = std::max(stamp, last_->stamp + kStep);
-  last_ = Last{device, arrival, stamp};
+  stream.last = Last{device_us, arrival, stamp};
   return stamp;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <future>
@@ -11,32 +10,30 @@
 #include <string>
 
 #include "openni2/camera_device.h"
+#include "openni2/reconnect_policy.h"
+#include "openni2/stream_supervisor.h"
 
 namespace dominant_plane_detection {
 
-enum class SessionState : std::uint8_t {
-  kSearching,  ///< there is no camera yet, or none any more
-  kIdle,       ///< a camera is open, nobody wants its images
-  kStreaming,  ///< images come
-  kSilent,     ///< images should come
-  kFinished,   ///< a recording has come to its end
-};
-
 struct SessionStatus {
-  SessionState state = SessionState::kSearching;
-  std::string text;          ///< one sentence
-  CameraDescription camera;  ///< empty while searching
-  int connections = 0;       ///< [#] of times that a camera was opened
-  int restarts = 0;          ///< [#] of times that a silent stream was started anew
+  bool open = false;                               ///< there is a camera
+  std::string problem;                             ///< why there is none
+  CameraDescription camera;                        ///< empty without one
+  int connections = 0;                             ///< [#] of times that a camera was opened
+  std::array<StreamStatus, kStreamKinds> streams;  ///< idle without a camera
+
+  const StreamStatus& stream(StreamKind kind) const {
+    return streams[static_cast<std::size_t>(kind)];
+  }
 };
 
 /// Keeps a camera open and its wanted streams running, whatever happens to it: waits for one that
-/// is not there yet, finds the same one again (by its serial number) after it was unplugged, starts
-/// silent streams anew. All that may take time happens in another thread.
+/// is not there yet, and finds the same one again (by its serial number) after it was unplugged.
+/// All that may take time happens in a thread of the session's; its methods may be called from any.
 class DeviceSession {
  public:
   struct Callbacks {
-    /// In a thread of the camera's, one frame after the other.
+    /// In a thread of the stream's, one frame after the other.
     CameraDevice::FrameCallback frame;
     /// In the session's thread, before the first frame: the camera may be another one now.
     std::function<void(const CameraDevice&)> opened;
@@ -48,10 +45,12 @@ class DeviceSession {
   /// @param patience [s] without a frame until a stream is started anew.
   DeviceSession(std::string device_id, const CameraSettings& settings, double patience,
                 Callbacks callbacks);
-  /// Waits for running callbacks.
   ~DeviceSession();
   DeviceSession(const DeviceSession&) = delete;
   DeviceSession& operator=(const DeviceSession&) = delete;
+
+  /// Closes the camera, waits for running callbacks, and answers who waits in `apply`; for good.
+  void end();
 
   /// Somebody wants a stream, or nobody any more. Returns at once.
   void want(StreamKind kind, bool wanted);
@@ -66,59 +65,59 @@ class DeviceSession {
   SessionStatus status() const;
 
  private:
-  using Steady = std::chrono::steady_clock;
+  using Clock = ReconnectPolicy::Clock;
   struct Change {
     CameraSettings settings;
     std::promise<std::string> answer;
   };
+  /// What is wanted of a camera.
+  struct Demand {
+    std::array<bool, kStreamKinds> streams{};
+    bool acceleration = false;
+    double patience = 0.0;  ///< [s]
+  };
 
   void run();
   void step();
-  bool timeToSearch() const;
   void search();
   void connect(const std::string& uri);
   void disconnect(const std::string& why);
   void makeChange(Change& change);
   std::string changeTo(const CameraSettings& settings);
-  void startAndStop();
-  void startWanted(StreamKind kind);
-  void watch();
-  bool anyHeard(double patience) const;
-  void readAcceleration();
-  double pause() const;
+  void followDemand();
+  void readAcceleration(const Demand& demand);
+  bool othersHeard(StreamKind kind, double patience) const;
   void onDeviceEvent(const std::string& gone);
-  void report(SessionState state, const std::string& text);
-  bool wanted(StreamKind kind) const;
+  void publishStatus();
+  Demand demand() const;
+  StreamSupervisor& supervisor(StreamKind kind) {
+    return supervisors_[static_cast<std::size_t>(kind)];
+  }
 
   std::string device_id_;
   Callbacks callbacks_;
-  std::shared_ptr<OpenNi2Runtime> runtime_;
-  int listener_ = 0;
 
   // Of the session's thread alone.
-  CameraSettings wish_;      ///< what was asked for
-  CameraSettings settings_;  ///< what this camera can do of it
+  std::shared_ptr<OpenNi2Runtime> runtime_;
+  int listener_ = 0;
+  CameraSettings requested_;  ///< what was asked for
+  CameraSettings settings_;   ///< what this camera can do of it
   std::unique_ptr<CameraDevice> camera_;
-  std::string serial_;  ///< of the camera that was found first
-  std::string said_;    ///< last sentence of the log about searching
-  std::array<std::string, kStreamKinds> said_of_stream_;
-  std::array<int, kStreamKinds> restarts_in_a_row_{};
-  Steady::time_point opened_;
-  double back_off_;       ///< [s] until the next look for a camera
-  double penalty_ = 0.0;  ///< [s] without a look, for a camera that went as soon as it came
+  std::array<StreamSupervisor, kStreamKinds> supervisors_{StreamSupervisor(StreamKind::kDepth),
+                                                          StreamSupervisor(StreamKind::kColour),
+                                                          StreamSupervisor(StreamKind::kInfrared)};
+  std::string serial_;        ///< of the camera that was found first
+  std::string last_problem_;  ///< of the search, that the log has
 
   std::mutex applying_;       ///< held by whoever waits for an answer
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< of what follows; never held while anything else is called
   std::condition_variable changed_;
   bool ending_ = false;
-  bool poked_ = false;  ///< there is something to do
+  bool demand_changed_ = false;
   std::string open_uri_;
-  bool gone_ = false;
-  Steady::time_point next_search_;
-  Steady::time_point earliest_search_;
-  std::array<bool, kStreamKinds> wanted_{};
-  bool acceleration_wanted_ = false;
-  double patience_;
+  bool unplugged_ = false;
+  ReconnectPolicy reconnect_;
+  Demand demand_;
   std::optional<Change> change_;
   SessionStatus status_;
 

@@ -12,10 +12,12 @@ struct ImagePool::State {
     std::unique_ptr<sensor_msgs::Image> image;
     bool by_driver = true;
     bool by_subscribers = false;
+    std::size_t bytes = 0;  ///< that it had when it was taken
   };
 
   std::mutex mutex;
   std::size_t most_spare;
+  std::size_t taken_bytes = 0;        ///< of the loans by subscribers
   std::map<const void*, Loan> loans;  ///< by the first byte
   std::vector<std::unique_ptr<sensor_msgs::Image>> spare;
 
@@ -23,6 +25,7 @@ struct ImagePool::State {
     const std::lock_guard<std::mutex> lock(mutex);
     const auto loan = loans.find(memory);
     if (loan == loans.end()) return;
+    if (holder == &Loan::by_subscribers) taken_bytes -= loan->second.bytes;
     loan->second.*holder = false;
     if (loan->second.by_driver || loan->second.by_subscribers) return;
     if (spare.size() < most_spare) spare.push_back(std::move(loan->second.image));
@@ -54,9 +57,18 @@ sensor_msgs::ImagePtr ImagePool::take(const void* memory) {
   const auto loan = state_->loans.find(memory);
   if (loan == state_->loans.end() || loan->second.by_subscribers) return nullptr;
   loan->second.by_subscribers = true;
+  loan->second.bytes = loan->second.image->data.size();
+  state_->taken_bytes += loan->second.bytes;
   return {loan->second.image.get(), [state = state_, memory](sensor_msgs::Image*) {
             state->end(memory, &State::Loan::by_subscribers);
           }};
+}
+
+sensor_msgs::ImagePtr ImagePool::make(std::size_t bytes) {
+  void* const memory = lend(bytes);
+  sensor_msgs::ImagePtr image = take(memory);
+  giveBack(memory);
+  return image;
 }
 
 void ImagePool::giveBack(const void* memory) { state_->end(memory, &State::Loan::by_driver); }
@@ -65,6 +77,11 @@ bool ImagePool::lent() const {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   return std::any_of(state_->loans.begin(), state_->loans.end(),
                      [](const auto& loan) { return loan.second.by_driver; });
+}
+
+std::size_t ImagePool::takenBytes() const {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  return state_->taken_bytes;
 }
 
 std::size_t ImagePool::messages() const {

@@ -27,11 +27,16 @@ class ImagePool {
   /// Nothing for memory that is not on loan, or whose message was taken before.
   sensor_msgs::ImagePtr take(const void* memory);
 
+  /// @return a message of that many bytes, which nobody else has, with what happens to be in it.
+  sensor_msgs::ImagePtr make(std::size_t bytes);
+
   /// The driver does not need the memory any more.
   void giveBack(const void* memory);
 
   /// @return whether the driver has memory that it did not give back.
   bool lent() const;
+  /// @return [byte] of the messages that were taken and not let go of.
+  std::size_t takenBytes() const;
   /// @return [#] of messages that are made and not freed.
   std::size_t messages() const;
 

@@ -1,5 +1,6 @@
 #include "openni2/sensor_stream.h"
 
+#include <ros/console.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "openni2/lasting_threads.h"
 #include "openni2/runtime.h"
 
 namespace dominant_plane_detection {
@@ -43,6 +45,20 @@ VideoMode toMode(const openni::VideoMode& mode) {
   return {mode.getResolutionX(), mode.getResolutionY(), mode.getFps()};
 }
 
+/// [byte] of images that subscribers in this process may keep: a quarter of a minute and more.
+constexpr std::size_t kMostTaken = 400'000'000;
+
+/// @return [byte] that an image of the frame's size has.
+std::size_t imageBytes(const openni::VideoFrameRef& frame) {
+  return static_cast<std::size_t>(frame.getStrideInBytes()) *
+         static_cast<std::size_t>(frame.getHeight());
+}
+
+/// @return [byte] that the device has sent of it.
+std::size_t sentBytes(const openni::VideoFrameRef& frame) {
+  return static_cast<std::size_t>(std::max(frame.getDataSize(), 0));
+}
+
 std::int64_t steadyNanoseconds() {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -67,9 +83,8 @@ bool SensorStream::isIn(openni::Device& device, StreamKind kind) {
   return device.hasSensor(sensorType(kind));
 }
 
-SensorStream::SensorStream(openni::Device& device, StreamKind kind, Signal arrived,
-                           Callback callback)
-    : kind_(kind), arrived_(std::move(arrived)), callback_(std::move(callback)) {
+SensorStream::SensorStream(openni::Device& device, StreamKind kind, Callback callback)
+    : kind_(kind), callback_(std::move(callback)) {
   if (stream_.create(device, sensorType(kind)) != openni::STATUS_OK) {
     throw std::runtime_error(std::string("no ") + toString(kind) +
                              " stream: " + lastOpenNi2Error());
@@ -83,12 +98,24 @@ SensorStream::SensorStream(openni::Device& device, StreamKind kind, Signal arriv
   // ends with the stream; see lasting_threads.h.
   oniStreamRegisterNewFrameCallback(
       stream_._getHandle(),
-      [](OniStreamHandle, void* cookie) { static_cast<SensorStream*>(cookie)->arrived_(); }, this,
-      &listener_);
+      [](OniStreamHandle, void* cookie) {
+        auto* const stream = static_cast<SensorStream*>(cookie);
+        const std::lock_guard<std::mutex> lock(stream->mutex_);
+        stream->arrived_ = true;
+        stream->changed_.notify_one();
+      },
+      this, &listener_);
+  delivery_ = runInLastingThread([this] { deliverFrames(); });
 }
 
 SensorStream::~SensorStream() {
   stop();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_one();
+  delivery_.wait();
   oniStreamUnregisterNewFrameCallback(stream_._getHandle(), listener_);
   // The sensor may be in other hands as well, and go on with our memory: then it is left to it.
   const bool taken_back = stream_.setFrameBuffersAllocator(nullptr) == openni::STATUS_OK;
@@ -157,6 +184,19 @@ void SensorStream::setAutomatic(bool exposure, bool white_balance) {
   settings->setAutoWhiteBalanceEnabled(white_balance);
 }
 
+void SensorStream::deliverFrames() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return ending_ || arrived_; });
+    if (ending_) return;
+    arrived_ = false;
+    lock.unlock();
+    deliver();
+    lock.lock();
+  }
+}
+
+/// Hands the newest frame to the callback, if there is one and the stream runs.
 void SensorStream::deliver() {
   const std::lock_guard<std::mutex> lock(delivering_);
   if (!running_) return;
@@ -164,6 +204,14 @@ void SensorStream::deliver() {
   if (!read(frame)) return;
   last_sign_ = steadyNanoseconds();
   heard_ = true;
+  if (allocator_->pool.takenBytes() > kMostTaken) {
+    // Left out: the numbers of the frames tell that it is missing.
+    ROS_WARN_STREAM_THROTTLE(5.0, "Subscribers in this process keep "
+                                      << allocator_->pool.takenBytes() / 1000000 << " MB of "
+                                      << toString(kind_)
+                                      << " images; no more are published until they let go.");
+    return;
+  }
   SensorFrame sensor_frame;
   sensor_frame.image = message(frame);
   sensor_frame.device_time = frame.getTimestamp();
@@ -171,6 +219,7 @@ void SensorStream::deliver() {
   sensor_frame.rate = frame.getVideoMode().getFps();
   sensor_frame.registered = registered_;
   sensor_frame.raw = frame.getVideoMode().getPixelFormat() == openni::PIXEL_FORMAT_SHIFT_9_2;
+  sensor_frame.incomplete = sentBytes(frame) < imageBytes(frame);
   frame.release();  // the message keeps the memory
   callback_(sensor_frame);
 }
@@ -183,15 +232,15 @@ bool SensorStream::read(openni::VideoFrameRef& frame) {
 }
 
 sensor_msgs::ImagePtr SensorStream::message(const openni::VideoFrameRef& frame) {
-  sensor_msgs::ImagePtr image = allocator_->pool.take(frame.getData());
-  const auto bytes = static_cast<std::size_t>(frame.getStrideInBytes()) *
-                     static_cast<std::size_t>(frame.getHeight());
+  const std::size_t bytes = imageBytes(frame), sent = std::min(sentBytes(frame), bytes);
+  sensor_msgs::ImagePtr image;
+  if (sent == bytes) image = allocator_->pool.take(frame.getData());
   if (!image) {
-    // Somebody else in this process streams the same sensor into memory of their own.
-    void* memory = allocator_->pool.lend(bytes);
-    std::memcpy(memory, frame.getData(), bytes);
-    image = allocator_->pool.take(memory);
-    allocator_->pool.giveBack(memory);
+    // Somebody else in this process streams the same sensor into memory of their own; or there is
+    // less than an image, and what an earlier one left behind it is in the driver's memory.
+    image = allocator_->pool.make(bytes);
+    std::memcpy(image->data.data(), frame.getData(), sent);
+    std::fill(image->data.begin() + static_cast<std::ptrdiff_t>(sent), image->data.end(), 0);
   }
   image->data.resize(bytes);  // OpenNI2 may have asked for more than the frame has
   image->width = static_cast<std::uint32_t>(frame.getWidth());

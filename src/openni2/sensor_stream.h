@@ -5,8 +5,11 @@
 #include <sensor_msgs/Image.h>
 
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <future>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -31,21 +34,23 @@ struct SensorFrame {
   int rate = 0;                   ///< [1/s] of the stream's mode
   bool registered = false;        ///< depth as seen from the colour camera
   bool raw = false;               ///< depth as raw disparity instead of millimetres
+  bool incomplete = false;        ///< the device sent less than an image; the rest has no readings
 };
 
-/// One sensor of an open device. Frames are messages whose memory the device's driver has written.
+/// One sensor of an open device. Frames are messages whose memory the device's driver has written,
+/// and which nobody but the receiver has; where OpenNI2 shares that memory with others, a copy.
 class SensorStream {
  public:
   using Callback = std::function<void(const SensorFrame&)>;
-  using Signal = std::function<void()>;
 
   /// @return whether a device has such a sensor.
   static bool isIn(openni::Device& device, StreamKind kind);
 
-  /// @param arrived called in a thread of OpenNI2's when there is a frame to `deliver`.
-  /// @param callback gets the frames, from within `deliver`.
+  /// @param callback gets the frames, in a thread of the stream's: it may take its time without
+  /// holding up other streams, of the same device or of others.
   /// @throw std::runtime_error when the device does not give it.
-  SensorStream(openni::Device& device, StreamKind kind, Signal arrived, Callback callback);
+  SensorStream(openni::Device& device, StreamKind kind, Callback callback);
+  /// Waits for a running callback.
   ~SensorStream();
   SensorStream(const SensorStream&) = delete;
   SensorStream& operator=(const SensorStream&) = delete;
@@ -65,8 +70,6 @@ class SensorStream {
   void start(const VideoMode& mode, bool registered, bool raw);
   /// Waits for a running callback.
   void stop();
-  /// Hands the newest frame to the callback, if there is one and the stream runs.
-  void deliver();
   bool running() const { return running_; }
   /// @return [s] since the last frame, or since `start`.
   double silence() const;
@@ -79,13 +82,14 @@ class SensorStream {
  private:
   class Allocator;
 
+  void deliverFrames();
+  void deliver();
   void setMode(const VideoMode& mode, bool raw);
   /// @return false when there is no frame after all.
   bool read(openni::VideoFrameRef& frame);
   sensor_msgs::ImagePtr message(const openni::VideoFrameRef& frame);
 
   StreamKind kind_;
-  Signal arrived_;
   Callback callback_;
   openni::VideoStream stream_;
   std::unique_ptr<Allocator> allocator_;
@@ -95,6 +99,12 @@ class SensorStream {
   std::atomic<bool> registered_{false};
   std::atomic<bool> heard_{false};
   std::atomic<std::int64_t> last_sign_{0};  ///< [ns] of the steady clock
+
+  std::mutex mutex_;  ///< of what follows
+  std::condition_variable changed_;
+  bool arrived_ = false;  ///< a frame that is not delivered yet
+  bool ending_ = false;
+  std::future<void> delivery_;
 };
 
 }  // namespace dominant_plane_detection

@@ -25,25 +25,32 @@ std::filesystem::path defaultFile(const std::string& camera_name) {
 
 std::optional<sensor_msgs::CameraInfo> scaled(const sensor_msgs::CameraInfo& info,
                                               std::uint32_t width, std::uint32_t height) {
-  const std::uint64_t across = std::uint64_t{info.width} * height;
-  if (info.width == 0 || across != std::uint64_t{width} * info.height) return std::nullopt;
+  if (info.width == 0 || info.height == 0 || width == 0 || height == 0) return std::nullopt;
   sensor_msgs::CameraInfo result = info;
   const double scale = static_cast<double>(width) / info.width;
   // Pixel centres are whole numbers: the image's edge is half a pixel before the first one.
-  const auto centre = [scale](double c) { return (c + 0.5) * scale - 0.5; };
+  const auto column = [scale](double c) { return (c + 0.5) * scale - 0.5; };
+  const double cut = 0.5 * (scale * info.height - height);  // rows above, and below
+  const auto row = [&](double c) { return column(c) - cut; };
   result.width = width;
   result.height = height;
   result.K[0] *= scale;
-  result.K[2] = centre(info.K[2]);
+  result.K[2] = column(info.K[2]);
   result.K[4] *= scale;
-  result.K[5] = centre(info.K[5]);
+  result.K[5] = row(info.K[5]);
   result.P[0] *= scale;
-  result.P[2] = centre(info.P[2]);
+  result.P[2] = column(info.P[2]);
   result.P[3] *= scale;
   result.P[5] *= scale;
-  result.P[6] = centre(info.P[6]);
+  result.P[6] = row(info.P[6]);
   result.P[7] *= scale;
   return result;
+}
+
+sensor_msgs::CameraInfo shifted(sensor_msgs::CameraInfo info, double right, double down) {
+  for (double* const x : {&info.K[2], &info.P[2]}) *x += right;
+  for (double* const y : {&info.K[5], &info.P[6]}) *y += down;
+  return info;
 }
 
 sensor_msgs::CameraInfo pinhole(std::uint32_t width, std::uint32_t height, double field_of_view) {
@@ -85,20 +92,26 @@ void CameraCalibration::setCamera(const std::string& serial, double field_of_vie
   }
 }
 
-sensor_msgs::CameraInfo CameraCalibration::info(std::uint32_t width, std::uint32_t height) {
+std::optional<sensor_msgs::CameraInfo> CameraCalibration::calibrated(std::uint32_t width,
+                                                                     std::uint32_t height) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (manager_.isCalibrated()) {
-    const sensor_msgs::CameraInfo calibration = manager_.getCameraInfo();
-    const auto fitting = scaled(calibration, width, height);
-    if (fitting) return *fitting;
-    if (!warned_) {
-      warned_ = true;
-      ROS_WARN_STREAM("The calibration of the "
-                      << name_ << " camera is for " << calibration.width << " x "
-                      << calibration.height << " pixels, its images have " << width << " x "
-                      << height << ", which is another shape; the field of view is used instead.");
-    }
+  if (!manager_.isCalibrated()) return std::nullopt;
+  const sensor_msgs::CameraInfo calibration = manager_.getCameraInfo();
+  const bool same_shape =
+      std::uint64_t{calibration.width} * height == std::uint64_t{width} * calibration.height;
+  if (!same_shape && !warned_) {
+    warned_ = true;
+    ROS_WARN_STREAM("The calibration of the "
+                    << name_ << " camera is for " << calibration.width << " x "
+                    << calibration.height << " pixels, its images have " << width << " x " << height
+                    << ", which is another shape: the whole width is taken to be seen, and as much "
+                       "cut off above as below.");
   }
+  return scaled(calibration, width, height);
+}
+
+sensor_msgs::CameraInfo CameraCalibration::uncalibrated(std::uint32_t width, std::uint32_t height) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   return pinhole(width, height, field_of_view_ > 0.0 ? field_of_view_ : kKinectFieldOfView);
 }
 

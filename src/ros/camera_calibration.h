@@ -10,10 +10,15 @@
 
 namespace dominant_plane_detection {
 
-/// @return the calibration of a camera for images of another size (REP 104); nothing when the shape
-/// differs, so that it is not known which part of the image was cut off.
+/// @return the calibration of a camera for images of another size (REP 104). Where the shape
+/// differs, as that of 1280 x 1024 and 640 x 480, the sensor's whole width is taken to be seen, and
+/// as much cut off (or added) above as below. Nothing for a calibration without a size.
 std::optional<sensor_msgs::CameraInfo> scaled(const sensor_msgs::CameraInfo& info,
                                               std::uint32_t width, std::uint32_t height);
+
+/// @return the calibration with its principal points moved.
+/// @param right, down [px]
+sensor_msgs::CameraInfo shifted(sensor_msgs::CameraInfo info, double right, double down);
 
 /// A pinhole with the optical axis through the middle of the image.
 /// @param field_of_view [rad] horizontal.
@@ -33,8 +38,10 @@ class CameraCalibration {
   /// taken, with a warning.
   void setCamera(const std::string& serial, double field_of_view);
 
-  /// @return the calibration for images of a size; without a header.
-  sensor_msgs::CameraInfo info(std::uint32_t width, std::uint32_t height);
+  /// @return what a file says, for images of a size, without a header; nothing where there is none.
+  std::optional<sensor_msgs::CameraInfo> calibrated(std::uint32_t width, std::uint32_t height);
+  /// @return the same by the field of view.
+  sensor_msgs::CameraInfo uncalibrated(std::uint32_t width, std::uint32_t height);
 
  private:
   std::string name_;

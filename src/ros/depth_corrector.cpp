@@ -1,4 +1,4 @@
-#include "ros/depth_correction.h"
+#include "ros/depth_corrector.h"
 
 #include <cmath>
 #include <cstdint>
@@ -7,31 +7,63 @@
 namespace dominant_plane_detection {
 namespace {
 
-std::uint16_t* rowOf(sensor_msgs::Image& image, std::uint32_t v) {
-  return reinterpret_cast<std::uint16_t*>(&image.data[std::size_t{v} * image.step]);
+template <typename ImageT>
+auto rowOf(ImageT& image, std::uint32_t v) {
+  using Pixel = std::conditional_t<std::is_const_v<ImageT>, const std::uint16_t, std::uint16_t>;
+  return reinterpret_cast<Pixel*>(&image.data[std::size_t{v} * image.step]);
+}
+
+void correctRow(const std::uint16_t* from, std::uint32_t width, float scale, float offset,
+                std::uint16_t* to) {
+  constexpr float kMost = std::numeric_limits<std::uint16_t>::max();
+  for (std::uint32_t u = 0; u < width; ++u) {
+    const float z = std::nearbyint(scale * static_cast<float>(from[u]) + offset);
+    to[u] = from[u] != 0 && 0.0F < z && z <= kMost ? static_cast<std::uint16_t>(z) : 0;
+  }
 }
 
 }  // namespace
 
-void correctDepth(double z_offset, double z_scale, sensor_msgs::Image& depth) {
-  if (z_offset == 0.0 && z_scale == 1.0) return;
-  const auto scale = static_cast<float>(z_scale);
-  const auto offset = static_cast<float>(1000.0 * z_offset);
-  constexpr float kMost = std::numeric_limits<std::uint16_t>::max();
-  for (std::uint32_t v = 0; v < depth.height; ++v) {
-    std::uint16_t* const row = rowOf(depth, v);
-    for (std::uint32_t u = 0; u < depth.width; ++u) {
-      const float z = std::nearbyint(scale * static_cast<float>(row[u]) + offset);
-      row[u] = row[u] != 0 && 0.0F < z && z <= kMost ? static_cast<std::uint16_t>(z) : 0;
-    }
-  }
+DepthCorrector::DepthCorrector(const DepthCalibration& calibration) : calibration_(calibration) {
+  set(0.0, 1.0);
 }
 
-void toMillimetres(const DisparityTable& table, sensor_msgs::Image& depth) {
-  for (std::uint32_t v = 0; v < depth.height; ++v) {
-    std::uint16_t* const row = rowOf(depth, v);
-    table.apply(row, depth.width, row);
+void DepthCorrector::set(double z_offset, double z_scale) {
+  const auto correction = std::make_shared<const Correction>(
+      Correction{1000.0 * z_offset, z_scale, DisparityTable(calibration_, z_offset, z_scale)});
+  const std::lock_guard<std::mutex> lock(mutex_);
+  correction_ = correction;
+}
+
+sensor_msgs::ImagePtr DepthCorrector::correct(const sensor_msgs::ImagePtr& depth, bool raw) {
+  std::shared_ptr<const Correction> correction;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    correction = correction_;
   }
+  if (!raw && correction->offset == 0.0 && correction->scale == 1.0) return depth;
+  const sensor_msgs::Image& from = *depth;
+  const sensor_msgs::ImagePtr to = likeness(from);
+  for (std::uint32_t v = 0; v < from.height; ++v) {
+    if (raw) {
+      correction->table.apply(rowOf(from, v), from.width, rowOf(*to, v));
+    } else {
+      correctRow(rowOf(from, v), from.width, static_cast<float>(correction->scale),
+                 static_cast<float>(correction->offset), rowOf(*to, v));
+    }
+  }
+  return to;
+}
+
+/// @return an image of the same size and kind, whose pixels have yet to be written.
+sensor_msgs::ImagePtr DepthCorrector::likeness(const sensor_msgs::Image& image) {
+  const sensor_msgs::ImagePtr other = pool_.make(image.data.size());
+  other->width = image.width;
+  other->height = image.height;
+  other->step = image.step;
+  other->encoding = image.encoding;
+  other->is_bigendian = image.is_bigendian;
+  return other;
 }
 
 }  // namespace dominant_plane_detection

@@ -2,16 +2,46 @@
 
 #include <sensor_msgs/Image.h>
 
+#include <memory>
+#include <mutex>
+
 #include "core/disparity_table.h"
+#include "dominant_plane_detection/depth_calibration.h"
+#include "openni2/image_pool.h"
 
 namespace dominant_plane_detection {
 
-/// z' = z_scale z + z_offset for each reading of a 16UC1 image in millimetres, in place. No reading
-/// (0) stays none, and what leaves the range of 16 bits becomes none.
-/// @param z_offset [m]
-void correctDepth(double z_offset, double z_scale, sensor_msgs::Image& depth);
+/// Turns the images of a depth sensor into millimetres as users correct them:
+/// z' = z_scale z + z_offset. No reading (0) stays none, and what leaves the range of 16 bits
+/// becomes none.
+///
+/// An image that has to be changed is written anew: the memory of the sensor's own may be that of
+/// others, too, whom OpenNI2 shares it with. May be used from any thread.
+class DepthCorrector {
+ public:
+  /// @param calibration from raw disparity to distance.
+  explicit DepthCorrector(const DepthCalibration& calibration = DepthCalibration::kinect());
 
-/// The readings of a 16UC1 image, raw disparity, in millimetres, in place.
-void toMillimetres(const DisparityTable& table, sensor_msgs::Image& depth);
+  /// @param z_offset [m]
+  void set(double z_offset, double z_scale);
+
+  /// @param depth 16UC1, in millimetres, or raw disparity.
+  /// @return the same image where there is nothing to correct.
+  sensor_msgs::ImagePtr correct(const sensor_msgs::ImagePtr& depth, bool raw);
+
+ private:
+  struct Correction {
+    double offset;         ///< [mm]
+    double scale;          ///< [-]
+    DisparityTable table;  ///< with both
+  };
+
+  sensor_msgs::ImagePtr likeness(const sensor_msgs::Image& image);
+
+  DepthCalibration calibration_;
+  ImagePool pool_;
+  std::mutex mutex_;  ///< of the pointer
+  std::shared_ptr<const Correction> correction_;
+};
 
 }  // namespace dominant_plane_detection

@@ -2,6 +2,8 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
+#include <algorithm>
+
 namespace dominant_plane_detection {
 namespace {
 
@@ -9,44 +11,50 @@ using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kSlow = 0.8;      // [-] share of the mode's rate below which to warn
 constexpr double kShortest = 0.5;  // [s] of which a rate can be told
-constexpr double kPeriod = 1.0;    // [s] between reports
+constexpr double kPatience = 5.0;  // [s] for which a camera may be looked for at the start
 
-const char* nameOf(SessionState state) {
+const char* nameOf(StreamState state) {
   switch (state) {
-    case SessionState::kSearching:
-      return "searching";
-    case SessionState::kIdle:
+    case StreamState::kIdle:
       return "idle";
-    case SessionState::kStreaming:
+    case StreamState::kStarting:
+      return "starting";
+    case StreamState::kStreaming:
       return "streaming";
-    case SessionState::kSilent:
+    case StreamState::kSilent:
       return "silent";
+    case StreamState::kFailed:
+      return "failed";
     default:
       return "finished";
   }
 }
 
+/// @return the streams that run, as "depth, rgb".
+std::string running(const SessionStatus& status) {
+  std::string names;
+  for (const StreamKind kind : kAllStreams) {
+    if (status.stream(kind).state != StreamState::kStreaming) continue;
+    names += (names.empty() ? "" : ", ") + std::string(toString(kind));
+  }
+  return names;
+}
+
 }  // namespace
 
 DriverDiagnostics::DriverDiagnostics(const ros::NodeHandle& node,
-                                     const ros::NodeHandle& private_node, const std::string& name,
-                                     std::function<SessionStatus()> status)
-    : status_(std::move(status)), updater_(node, private_node, name) {
+                                     const ros::NodeHandle& private_node, const std::string& name)
+    : begin_(ros::SteadyTime::now()), updater_(node, private_node, name) {
   updater_.setHardwareID("none");
   updater_.add("camera", [this](auto& report) { reportCamera(report); });
   for (const StreamKind kind : kAllStreams) {
     updater_.add(toString(kind), [this, kind](auto& report) { reportStream(kind, report); });
   }
-  timer_ = node.createWallTimer(ros::WallDuration(kPeriod), [this](const ros::WallTimerEvent&) {
-    const std::string serial = status_().camera.serial;
-    updater_.setHardwareID(serial.empty() ? "none" : serial);
-    updater_.force_update();
-  });
 }
 
 void DriverDiagnostics::setWanted(StreamKind kind, bool wanted) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  Stream& stream = streams_[static_cast<int>(kind)];
+  Stream& stream = streams_[static_cast<std::size_t>(kind)];
   if (stream.wanted == wanted) return;
   stream.wanted = wanted;
   stream.since = ros::SteadyTime::now();
@@ -61,52 +69,82 @@ void DriverDiagnostics::beginNumbers() {
 
 void DriverDiagnostics::count(StreamKind kind, const SensorFrame& frame) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  Stream& stream = streams_[static_cast<int>(kind)];
+  Stream& stream = streams_[static_cast<std::size_t>(kind)];
   const int missing = frame.number - stream.last_number - 1;
   // A number that goes back is that of a stream or a recording that began again.
   if (stream.last_number >= 0 && missing > 0) stream.dropped += static_cast<std::uint64_t>(missing);
   stream.last_number = frame.number;
   stream.rate = frame.rate;
   ++stream.frames;
+  if (frame.incomplete) ++stream.incomplete;
 }
 
-void DriverDiagnostics::reportCamera(diagnostic_updater::DiagnosticStatusWrapper& report) {
-  const SessionStatus status = status_();
-  const bool well =
-      status.state != SessionState::kSearching && status.state != SessionState::kSilent;
-  report.summary(well ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
-                 std::string(nameOf(status.state)) + ": " + status.text);
-  report.add("state", nameOf(status.state));
-  report.add("uri", status.camera.uri);
-  report.add("name", status.camera.vendor + " " + status.camera.name);
-  report.add("serial number", status.camera.serial);
-  report.add("times opened", status.connections);
-  report.add("silent streams started anew", status.restarts);
+void DriverDiagnostics::report(const SessionStatus& status) {
+  status_ = status;
+  updater_.setHardwareID(status.camera.serial.empty() ? "none" : status.camera.serial);
+  updater_.force_update();
+}
+
+void DriverDiagnostics::reportCamera(diagnostic_updater::DiagnosticStatusWrapper& report) const {
+  const std::string names = running(status_);
+  const bool starting =
+      status_.connections == 0 && (ros::SteadyTime::now() - begin_).toSec() < kPatience;
+  int restarts = 0;
+  for (const StreamStatus& stream : status_.streams) restarts += stream.restarts;
+  if (!status_.open) {
+    report.summary(starting ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR,
+                   "searching: " + status_.problem);
+  } else {
+    report.summary(DiagnosticStatus::OK,
+                   names.empty() ? "idle: no stream runs" : "streaming: " + names);
+  }
+  report.add("uri", status_.camera.uri);
+  report.add("name", status_.camera.vendor + " " + status_.camera.name);
+  report.add("serial number", status_.camera.serial);
+  report.add("times opened", status_.connections);
+  report.add("silent streams started anew", restarts);
 }
 
 void DriverDiagnostics::reportStream(StreamKind kind,
                                      diagnostic_updater::DiagnosticStatusWrapper& report) {
-  const bool streaming = status_().state == SessionState::kStreaming;
   const std::lock_guard<std::mutex> lock(mutex_);
-  Stream& stream = streams_[static_cast<int>(kind)];
-  const ros::SteadyTime now = ros::SteadyTime::now();
-  const double seconds = (now - stream.since).toSec();
+  const StreamStatus& status = status_.stream(kind);
+  Stream& stream = streams_[static_cast<std::size_t>(kind)];
   if (!stream.wanted) {
     report.summary(DiagnosticStatus::OK, "idle: nobody listens");
-  } else if (seconds < kShortest) {
-    report.summary(DiagnosticStatus::OK, "starting");
+  } else if (!status_.open) {
+    report.summary(DiagnosticStatus::ERROR, "there is no camera");
   } else {
-    const double rate = static_cast<double>(stream.frames - stream.reported) / seconds;
-    const bool slow = streaming && rate < kSlow * stream.rate;
-    report.summaryf(slow ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
-                    "%.1f images a second, %d by the mode", rate, stream.rate);
-    report.addf("rate [1/s]", "%.2f", rate);
-    stream.since = now;
-    stream.reported = stream.frames;
+    summarise(status, stream, report);
   }
+  report.add("state", nameOf(status.state));
   report.add("rate of the mode [1/s]", stream.rate);
   report.add("images", stream.frames);
   report.add("dropped images", stream.dropped);
+  report.add("incomplete images", stream.incomplete);
+  report.add("times silent and started anew", status.restarts);
+}
+
+/// Of a stream that is wanted.
+void DriverDiagnostics::summarise(const StreamStatus& status, Stream& stream,
+                                  diagnostic_updater::DiagnosticStatusWrapper& report) const {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  const double seconds = (now - stream.since).toSec();
+  const bool wrong = status.state == StreamState::kFailed || status.state == StreamState::kSilent;
+  if (wrong || status.state == StreamState::kFinished) {
+    report.summary(wrong ? DiagnosticStatus::ERROR : DiagnosticStatus::OK, status.text);
+  } else if (status.state != StreamState::kStreaming || seconds < kShortest) {
+    report.summary(DiagnosticStatus::OK, "starting");
+    return;
+  } else {
+    const double rate = static_cast<double>(stream.frames - stream.reported) / seconds;
+    const bool slow = rate < kSlow * stream.rate;
+    report.summaryf(slow ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+                    "%.1f images a second, %d by the mode", rate, stream.rate);
+    report.addf("rate [1/s]", "%.2f", rate);
+  }
+  stream.since = now;
+  stream.reported = stream.frames;
 }
 
 }  // namespace dominant_plane_detection

@@ -46,13 +46,6 @@ void DriverOutputs::advertise(const ros::NodeHandle& node, const DriverNames& na
   registered_ = advertise(topics::kRegisteredDepth);
 }
 
-void DriverOutputs::shutdown() {
-  for (auto& publisher : streams_) publisher.shutdown();
-  registered_.shutdown();
-  disparity_.shutdown();
-  imu_.shutdown();
-}
-
 bool DriverOutputs::wants(StreamKind kind) const {
   const std::uint32_t listeners = streams_[static_cast<int>(kind)].getNumSubscribers();
   if (listeners > 0 || kind != StreamKind::kDepth) return listeners > 0;
@@ -67,23 +60,38 @@ void DriverOutputs::setCamera(const CameraDevice& camera) {
   }
 }
 
-void DriverOutputs::publish(StreamKind kind, const SensorFrame& frame, const ros::Time& stamp) {
-  sensor_msgs::Image& image = *frame.image;
-  const bool in_colour = kind == StreamKind::kColour || frame.registered;
-  image.header.stamp = stamp;
-  image.header.frame_id = in_colour ? names_.rgb_frame_id : names_.depth_frame_id;
+void DriverOutputs::publish(StreamKind kind, bool registered, const sensor_msgs::ImagePtr& image,
+                            const ros::Time& stamp) {
+  const bool in_colour = kind == StreamKind::kColour || registered;
+  image->header.stamp = stamp;
+  image->header.frame_id = in_colour ? names_.rgb_frame_id : names_.depth_frame_id;
   const auto info = boost::make_shared<sensor_msgs::CameraInfo>(
-      calibration(in_colour ? StreamKind::kColour : kind).info(image.width, image.height));
-  info->header = image.header;
-  const auto& publisher = frame.registered ? registered_ : streams_[static_cast<int>(kind)];
-  publisher.publish(frame.image, info);
+      cameraInfo(in_colour ? StreamKind::kColour : kind, image->width, image->height));
+  info->header = image->header;
+  const auto& publisher = registered ? registered_ : streams_[static_cast<int>(kind)];
+  publisher.publish(image, info);
 }
 
-void DriverOutputs::publishRawDisparity(const sensor_msgs::Image& raw, const ros::Time& stamp) {
-  const auto copy = boost::make_shared<sensor_msgs::Image>(raw);
-  copy->header.stamp = stamp;
-  copy->header.frame_id = names_.depth_frame_id;
-  disparity_.publish(copy);
+/// Depth is seen by the infrared camera, some pixels off: who has calibrated that one has
+/// calibrated both.
+sensor_msgs::CameraInfo DriverOutputs::cameraInfo(StreamKind kind, std::uint32_t width,
+                                                  std::uint32_t height) {
+  if (const auto own = calibration(kind).calibrated(width, height)) return *own;
+  if (kind == StreamKind::kDepth) {
+    const auto infrared = calibration(StreamKind::kInfrared).calibrated(width, height);
+    const double scale = width / 640.0;
+    if (infrared) {
+      return shifted(*infrared, -scale * names_.depth_ir_offset_x,
+                     -scale * names_.depth_ir_offset_y);
+    }
+  }
+  return calibration(kind).uncalibrated(width, height);
+}
+
+void DriverOutputs::publishRawDisparity(const sensor_msgs::ImagePtr& raw, const ros::Time& stamp) {
+  raw->header.stamp = stamp;
+  raw->header.frame_id = names_.depth_frame_id;
+  disparity_.publish(raw);
 }
 
 void DriverOutputs::publish(const openni2_plugin::Acceleration& acceleration,

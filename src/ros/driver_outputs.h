@@ -19,6 +19,10 @@ struct DriverNames {
   std::string depth_camera_info_url;
   std::string rgb_camera_info_url;
   std::string ir_camera_info_url;
+  /// [px] of 640 columns: a point is seen so much farther to the right, and down, in the infrared
+  /// image than in the depth image, which has lost a margin to the matching of the pattern.
+  double depth_ir_offset_x = 5.0;
+  double depth_ir_offset_y = 4.0;
 };
 
 /// The topics that a camera's images are published on, each with the camera_info of its stamp.
@@ -28,8 +32,6 @@ class DriverOutputs {
   /// @param listeners_changed called whenever somebody begins or ends to listen to any of them.
   void advertise(const ros::NodeHandle& node, const DriverNames& names,
                  const std::function<void()>& listeners_changed);
-  /// Ends all topics; waits for a running `listeners_changed`.
-  void shutdown();
 
   /// @return whether somebody listens to the images of a stream, on any topic.
   bool wants(StreamKind kind) const;
@@ -40,13 +42,16 @@ class DriverOutputs {
   void setCamera(const CameraDevice& camera);
 
   /// Publishes without a copy: the message must not be touched any more.
-  void publish(StreamKind kind, const SensorFrame& frame, const ros::Time& stamp);
-  /// Publishes a copy.
-  void publishRawDisparity(const sensor_msgs::Image& raw, const ros::Time& stamp);
+  /// @param registered depth as seen from the colour camera.
+  void publish(StreamKind kind, bool registered, const sensor_msgs::ImagePtr& image,
+               const ros::Time& stamp);
+  /// The same.
+  void publishRawDisparity(const sensor_msgs::ImagePtr& raw, const ros::Time& stamp);
   /// REP 145: what is not measured is marked so.
   void publish(const openni2_plugin::Acceleration& acceleration, const ros::Time& stamp);
 
  private:
+  sensor_msgs::CameraInfo cameraInfo(StreamKind kind, std::uint32_t width, std::uint32_t height);
   CameraCalibration& calibration(StreamKind kind) { return *calibrations_[static_cast<int>(kind)]; }
 
   DriverNames names_;

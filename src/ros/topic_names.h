@@ -8,7 +8,7 @@ constexpr const char* kRegisteredDepth = "depth_registered/image_raw";
 constexpr const char* kColour = "rgb/image_raw";
 constexpr const char* kInfrared = "ir/image_raw";
 constexpr const char* kRawDisparity = "depth/disparity_raw";
-constexpr const char* kImu = "imu/data";
+constexpr const char* kImu = "imu/data_raw";  // REP 145: without an orientation
 
 // More inputs of the detection, relative to its namespace.
 constexpr const char* kPoints = "points";

@@ -103,7 +103,7 @@ TEST_F(KinectSession, GravityAndColour) {
   ASSERT_TRUE(manager.loadDriver("/camera", "freenect"));
   Listener<sensor_msgs::Image> depth(node, "depth/image_raw");
   Listener<sensor_msgs::Image> colour(node, "rgb/image_raw");
-  Listener<sensor_msgs::Imu> imu(node, "imu/data");
+  Listener<sensor_msgs::Imu> imu(node, "imu/data_raw");
   ASSERT_TRUE(spinUntil([&] { return imu.size() >= 60 && colour.size() >= 30; }));
   double worst = 0.0;
   std::set<std::size_t> seen;

@@ -202,7 +202,7 @@ TEST_F(KinectUsb, AccelerometerInTheOpticalFrame) {
   kinect.acceleration[2] = 2.0;  // forward
   freenect_double::plug("A1", kinect);
   ASSERT_TRUE(manager_.loadDriver("/camera", "A1"));
-  Listener<sensor_msgs::Imu> readings(node_, "imu/data");
+  Listener<sensor_msgs::Imu> readings(node_, "imu/data_raw");
   ASSERT_TRUE(spinUntil([&] { return readings.size() >= 5; }));
   const sensor_msgs::Imu& imu = *readings.last();
   constexpr double kCount = 9.80665 / FREENECT_COUNTS_PER_G;
@@ -220,7 +220,7 @@ TEST_F(KinectUsb, WithoutItsMotorACameraIsACameraStill) {
   kinect.has_motor = false;  // a later model without its audio firmware
   freenect_double::plug("A1", kinect);
   ASSERT_TRUE(manager_.loadDriver("/camera", "A1"));
-  Listener<sensor_msgs::Imu> readings(node_, "imu/data");
+  Listener<sensor_msgs::Imu> readings(node_, "imu/data_raw");
   Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
   ASSERT_TRUE(spinUntil([&] { return images.size() >= 30; }));
   EXPECT_EQ(readings.size(), 0U);

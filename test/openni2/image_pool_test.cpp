@@ -21,6 +21,24 @@ TEST(ImagePool, MessageOwnsTheMemoryThatWasLent) {
   EXPECT_EQ(image->data, std::vector<std::uint8_t>(kBytes, 7));
 }
 
+TEST(ImagePool, CountsWhatSubscribersKeep) {
+  ImagePool pool;
+  void* const memory = pool.lend(kBytes);
+  EXPECT_EQ(pool.takenBytes(), 0U);
+  sensor_msgs::ImagePtr image = pool.take(memory);
+  EXPECT_EQ(pool.takenBytes(), kBytes);
+  image->data.resize(10);  // whatever becomes of it
+  pool.giveBack(memory);
+  EXPECT_EQ(pool.takenBytes(), kBytes);
+  sensor_msgs::ImagePtr made = pool.make(3 * kBytes);
+  EXPECT_EQ(made->data.size(), 3 * kBytes);
+  EXPECT_FALSE(pool.lent());
+  EXPECT_EQ(pool.takenBytes(), 4 * kBytes);
+  made.reset();
+  image.reset();
+  EXPECT_EQ(pool.takenBytes(), 0U);
+}
+
 TEST(ImagePool, UsesAMessageAgainOnlyWhenBothHaveLetGo) {
   ImagePool pool;
   void* first = pool.lend(kBytes);

@@ -149,7 +149,7 @@ TEST_F(DriverRaw, RecordingsOfRawDisparityArePlayed) {
 
 TEST_F(DriverRaw, AccelerometerOfAMovingCamera) {
   ASSERT_TRUE(manager_.loadDriver("/camera", "virtual://laboratory?serial=IMU"));
-  Listener<sensor_msgs::Imu> readings(node_, "imu/data");
+  Listener<sensor_msgs::Imu> readings(node_, "imu/data_raw");
   ASSERT_TRUE(spinUntil([&] { return readings.size() >= 60; }));
   const Scene scene = loadScene(DPD_SOURCE "/scenes/laboratory.yaml");
   double worst = 0.0;
@@ -166,8 +166,19 @@ TEST_F(DriverRaw, AccelerometerOfAMovingCamera) {
     worst = std::max(worst, nearest);
   }
   EXPECT_LT(worst, 0.002);  // [rad], of the step through the path
+  EXPECT_EQ(readings.last()->orientation_covariance[0], -1.0) << "REP 145: there is none";
   for (std::size_t i = 1; i < readings.size(); ++i) {
     EXPECT_GT(readings.messages()[i]->header.stamp, readings.messages()[i - 1]->header.stamp);
+  }
+}
+
+TEST_F(DriverRaw, TheTimeOffsetReachesTheAccelerometer) {
+  ASSERT_TRUE(manager_.loadDriver("/camera", "virtual://laboratory?serial=IMUT",
+                                  {{"time_offset", "-0.9"}}));
+  Listener<sensor_msgs::Imu> readings(node_, "imu/data_raw");
+  ASSERT_TRUE(spinUntil([&] { return readings.size() >= 10; }));
+  for (const auto& reading : readings.messages()) {
+    EXPECT_LT(reading->header.stamp, ros::Time::now() - ros::Duration(0.89));
   }
 }
 

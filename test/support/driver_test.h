@@ -69,6 +69,13 @@ class Probe {
   void stall() const {
     with([](openni::Device& device) { device.invoke(virtual_kinect::kStall, nullptr, 0); });
   }
+  /// @param sensor whose streams do not start from now on.
+  void refuseStart(openni::SensorType sensor) const {
+    auto number = static_cast<std::int32_t>(sensor);
+    with([&](openni::Device& device) {
+      device.invoke(virtual_kinect::kRefuseStart, &number, sizeof(number));
+    });
+  }
   void drift(double rate) const {
     with([&](openni::Device& device) {
       device.invoke(virtual_kinect::kDrift, &rate, sizeof(rate));
