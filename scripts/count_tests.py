@@ -26,7 +26,7 @@ def cases(folder, ctest_results):
         yield from xml.etree.ElementTree.parse(path).getroot().iter("testcase")
     for case in xml.etree.ElementTree.parse(ctest_results).getroot().iter("testcase"):
         # A whole gtest or rostest program, whose own file says more, or one without such a file.
-        if case.get("name").startswith(("lint_", "mutate_")):
+        if case.get("name").startswith(("launch_", "lint_", "mutate_")):
             yield case
 
 

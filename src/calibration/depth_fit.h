@@ -10,15 +10,17 @@ namespace dominant_plane_detection {
 struct DepthFitOptions {
   DepthCalibration::Form form = DepthCalibration::Form::kReciprocal;
   double distance_sigma = 0.002;  ///< [m] of the tape measure
-  double raw_sigma = 0.3;         ///< [-] of the raw value, most of it from its rounding
+  /// [-] Of the raw value of a wall, a mean of thousands of readings: not their noise, which that
+  /// takes away, but the sensor's smooth error, which is the same all over the wall. That of an
+  /// Xtion is 0.68 and 0.24 mm/m^2 (docs/scenes.md), with 3.07 mm/m^2 a raw value (kinect()).
+  double raw_sigma = 0.25;
   bool minimax = false;  ///< the largest error as small as can be, in sigmas, for a table without
                          ///< noise, instead of least squares
 };
 
 struct DepthFit {
   DepthCalibration calibration;
-  DepthCalibration standard_errors;  ///< of the constants, from the residuals' own size; 0 with
-                                     ///< `minimax`
+  DepthCalibration standard_errors;  ///< of the constants, see `standardErrors`; 0 with `minimax`
   std::vector<double> residuals;     ///< [m] fitted minus measured, of all pairs
   std::vector<bool> outliers;        ///< pairs that were left out
   double rms = 0.0;                  ///< [m] of those that were not

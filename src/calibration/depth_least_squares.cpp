@@ -2,6 +2,7 @@
 
 #include <ceres/ceres.h>
 
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -23,8 +24,10 @@ struct Residual {
       constants[static_cast<std::size_t>(i)] *= multiples[i];
     }
     const double z = toCalibration(form, constants).evaluate(pair.raw);
-    *residual = (z - pair.distance) / pair.sigma;
-    return std::isfinite(z);
+    // What leaves the numbers is a step too far, which the solver takes back.
+    constexpr double kTooFar = 1e9;
+    *residual = std::isfinite(z) ? (z - pair.distance) / pair.sigma : kTooFar;
+    return true;
   }
   Form form;
   DepthConstants start;
@@ -128,8 +131,12 @@ DepthCalibration standardErrors(const DepthCalibration& calibration,
     squares += weights[i] * errors[i] * errors[i];
     count += weights[i];
   }
-  // How large errors are is told by the residuals, better than by the tape's user.
-  const double variance = squares / (count - n);
+  // How large errors are is told by the residuals, better than by the tape's user; the fewer they
+  // are the less they know, and the wider the interval is that holds the truth in 68 of 100 fits.
+  const double freedom = count - n;
+  const double sigma_share = 0.5 * (1.0 + std::erf(std::sqrt(0.5)));  // below one sigma
+  const double width = boost::math::quantile(boost::math::students_t(freedom), sigma_share);
+  const double variance = squares / freedom * width * width;
   DepthConstants sigma{};
   for (int i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);

@@ -56,7 +56,7 @@ std::vector<DepthConstants> exponentialStarts(const std::vector<DepthPair>& pair
                         {ac[0] * std::exp(-b * middle), b, ac[1] * std::exp(-d * middle), d}});
     }
   }
-  constexpr std::size_t kKept = 8;
+  constexpr std::size_t kKept = 12;
   std::partial_sort(starts.begin(), starts.begin() + kKept, starts.end(),
                     [](const auto& s, const auto& t) { return s.first < t.first; });
   std::vector<DepthConstants> best;

@@ -23,6 +23,14 @@ Points curveOf(const std::vector<DepthPair>& pairs, const DepthCalibration& cali
   return curve;
 }
 
+/// @return a text as it stands between gnuplot's single quotes.
+std::string quoted(std::string text) {
+  for (std::size_t i = text.find('\''); i != std::string::npos; i = text.find('\'', i + 2)) {
+    text.insert(i, 1, '\'');
+  }
+  return text;
+}
+
 }  // namespace
 
 void plotFit(const std::string& file, const std::vector<DepthPair>& pairs, const DepthFit& fit) {
@@ -37,7 +45,7 @@ void plotFit(const std::string& file, const std::vector<DepthPair>& pairs, const
   {
     Gnuplot gnuplot("gnuplot");
     gnuplot << "set terminal pngcairo size 900,900 font 'Sans,12'\n"
-            << "set output '" << file << "'\n"
+            << "set output '" << quoted(file) << "'\n"
             << "set multiplot layout 2,1\n"
             << "set lmargin 10\nset grid\nset key left top\nset xlabel 'raw depth value D'\n"
             << "set ylabel 'distance Z [m]'\n"

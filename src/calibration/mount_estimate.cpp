@@ -17,7 +17,9 @@ constexpr double kDegree = 0.0174533;  // [rad]
 // a camera on it by a few millimetres; one in the hand by far more.
 constexpr double kMostHeight = 0.005;         // [m]
 constexpr double kMostAngle = 1.5 * kDegree;  // [rad]
-constexpr double kLinkToDepth = 0.02;         // [m] camera.launch: from camera_link to the right
+// Of camera.launch, from camera_link to the right.
+constexpr double kLinkToDepth = 0.02;    // [m]
+constexpr double kLinkToColour = 0.045;  // [m]
 constexpr std::size_t kBatches = 10;
 
 struct Statistics {
@@ -65,9 +67,15 @@ double rollOf(const Eigen::Vector3d& up) { return std::atan2(-up.x(), -up.y()); 
 
 }  // namespace
 
-double Mount::linkHeight() const {
-  return height + kLinkToDepth * std::cos(pitch) * std::sin(roll);
+double linkOffsetOf(const std::string& frame_id) {
+  const std::string colour = "rgb_optical_frame";
+  const bool in_colour =
+      frame_id.size() >= colour.size() &&
+      frame_id.compare(frame_id.size() - colour.size(), colour.size(), colour) == 0;
+  return in_colour ? kLinkToColour : kLinkToDepth;
 }
+
+double Mount::linkHeight() const { return height + link_offset * std::cos(pitch) * std::sin(roll); }
 
 std::string Mount::launchText() const {
   // To a tenth of a millimetre and of a milliradian, without a minus before zero.
@@ -84,8 +92,9 @@ std::string Mount::launchText() const {
   return text;
 }
 
-void MountEstimate::add(const Detection& detection) {
+void MountEstimate::add(const Detection& detection, const std::string& frame_id) {
   ++seen_;
+  frame_id_ = frame_id;
   if (!detection.found()) {
     reason_ = detection.reason;
     return;
@@ -124,6 +133,7 @@ Mount MountEstimate::mount() const {
     throw std::runtime_error(problem.str());
   }
   Mount mount;
+  mount.link_offset = linkOffsetOf(frame_id_);
   mount.frames = found_.size();
   mount.height = height.mean;
   mount.pitch = pitch.mean;

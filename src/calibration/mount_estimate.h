@@ -8,7 +8,9 @@
 
 namespace dominant_plane_detection {
 
-/// How a camera is mounted over the floor; errors are standard errors of the means.
+/// How a camera is mounted over the floor. Errors are standard errors of the means, how well the
+/// result repeats: what the camera gets wrong in every image, such as the scale of depth, is not in
+/// them.
 struct Mount {
   std::size_t frames = 0;  ///< [#] with a plane
   double height = 0.0;     ///< [m] of the depth camera over the floor
@@ -18,17 +20,25 @@ struct Mount {
   double pitch_error = 0.0;
   double roll_error = 0.0;
 
-  /// @return [m] camera_link over the floor, where camera.launch has the depth camera: 2 cm to the
-  /// right of it.
+  double link_offset = 0.0;  ///< [m] from camera_link to the camera, to the right
+
+  /// @return [m] camera_link over the floor.
   double linkHeight() const;
   /// @return the arguments of pioneer.launch, and of a static_transform_publisher.
   std::string launchText() const;
 };
 
+/// @param frame_id of the depth images, as camera.launch names it.
+/// @return [m] from camera_link to the camera that depth is seen from, to the right: for
+/// ..._rgb_optical_frame, which registered depth has, the colour camera, otherwise the depth
+/// camera.
+double linkOffsetOf(const std::string& frame_id);
+
 /// Averages planes of free floor.
 class MountEstimate {
  public:
-  void add(const Detection& detection);
+  /// @param frame_id of the image.
+  void add(const Detection& detection, const std::string& frame_id);
   std::size_t frames() const { return seen_; }
 
   /// @throw std::runtime_error when that is no mount over free floor: too few frames, a plane that
@@ -44,6 +54,7 @@ class MountEstimate {
   std::vector<Frame> found_;
   std::size_t seen_ = 0;
   double share_ = 0.0;  ///< [-] sum of inlier shares
+  std::string frame_id_;
   std::string reason_;  ///< of the last frame without a plane
 };
 

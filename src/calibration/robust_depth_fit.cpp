@@ -69,6 +69,14 @@ RobustDepthFit fitRobustly(Form form, const std::vector<DepthPair>& measured,
 
 std::vector<double> findInliers(const RobustDepthFit& asked, const std::vector<DepthPair>& measured,
                                 const DepthFitOptions& options) {
+  // A curve with many constants has many minima, and few pairs hold the least absolute errors in a
+  // poor one. Where least squares explain all pairs there are no outliers to look for.
+  const std::vector<double> all(measured.size(), 1.0);
+  const std::vector<double> plain =
+      errorsOf(fitLeastSquares(options.form, asked.pairs, all), asked.pairs);
+  if (std::all_of(plain.begin(), plain.end(), [](double e) { return std::abs(e) <= kOutlier; })) {
+    return all;
+  }
   RobustDepthFit best = asked;
   constexpr std::size_t kEnough = 10;
   if (measured.size() >= kEnough) {

@@ -88,7 +88,7 @@ void PlaneDetectionNodelet::onFrame(const DetectionInputs::Frame& frame) {
     const Detection& detection = detector_.detect(frame.depth, frame.camera);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     diagnostics_->count(detection, time.count());
-    mount_service_->add(detection);
+    mount_service_->add(detection, frame.header.frame_id);
     outputs_.publish(frame, detection, time.count());
     overlay_->publish(frame, detection);
   } catch (const std::exception& error) {

@@ -56,10 +56,10 @@ bool MountService::wants() const {
   return estimate_.has_value();
 }
 
-void MountService::add(const Detection& detection) {
+void MountService::add(const Detection& detection, const std::string& frame_id) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!estimate_) return;
-  estimate_->add(detection);
+  estimate_->add(detection, frame_id);
   changed_.notify_all();
 }
 

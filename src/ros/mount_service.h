@@ -31,7 +31,8 @@ class MountService {
 
   /// @return whether a call waits for detections.
   bool wants() const;
-  void add(const Detection& detection);
+  /// @param frame_id of the image.
+  void add(const Detection& detection, const std::string& frame_id);
 
  private:
   bool onCall(CalibrateMount::Request& request, CalibrateMount::Response& response);

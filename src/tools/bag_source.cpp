@@ -72,6 +72,7 @@ class BagSource : public FrameSource {
     }
     Frame frame;
     frame.name = frameName(image_->header.stamp);
+    frame.frame_id = image_->header.frame_id;
     std::string error;
     const auto depth = reader_.read(*image_, error);
     if (!depth) throw UnreadableFrame(bag_.getFileName() + " " + frame.name + ": " + error);

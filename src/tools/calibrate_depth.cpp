@@ -67,7 +67,9 @@ void declare(CLI::App& app, FitCommand& command) {
                  "[m] standard deviation of a measured distance")
       ->check(CLI::Range(1e-6, 1.0))
       ->capture_default_str();
-  app.add_option("--raw-error", command.options.raw_sigma, "[-] standard deviation of a raw value")
+  app.add_option("--raw-error", command.options.raw_sigma,
+                 "[-] standard deviation of the raw value of a whole wall, most of it the sensor's "
+                 "smooth error")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   app.add_flag("--minimax", command.options.minimax,
@@ -114,6 +116,7 @@ void print(const DepthFit& fit) {
     printConstant("c", c.c, e.c, "m");
     printConstant("d", c.d, e.d, "");
   }
+  if (e.a > 0.0) std::printf("+-: holds the constant in 68 of 100 such fits\n");
   const auto left_out = std::count(fit.outliers.begin(), fit.outliers.end(), true);
   std::printf("residuals: %.1f mm root mean square, %.1f mm at most; %zu pairs, %td left out\n",
               1000.0 * fit.rms, 1000.0 * fit.worst, fit.outliers.size(), left_out);

@@ -37,6 +37,7 @@ void print(const CalibrateMount::Response& r) {
               kDegrees * r.pitch_error, r.pitch);
   std::printf("roll   %.3f deg +- %.4f deg (%.5f rad, to the right)\n", kDegrees * r.roll,
               kDegrees * r.roll_error, r.roll);
+  std::printf("+-: how well that repeats; the camera's own error over the floor comes on top\n");
   std::printf("from %u images; of camera_link:\n%s\n", r.frames, r.launch.c_str());
 }
 
@@ -55,7 +56,7 @@ int measureRecordings(const Options& options) {
       try {
         const auto frame = source->next();
         more = frame.has_value();
-        if (more) estimate.add(detector.detect(frame->depth, frame->camera));
+        if (more) estimate.add(detector.detect(frame->depth, frame->camera), frame->frame_id);
       } catch (const UnreadableFrame& error) {
         complain(error.what());
       }

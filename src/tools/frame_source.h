@@ -15,9 +15,10 @@ namespace dominant_plane_detection {
 
 /// A depth image to be looked at.
 struct Frame {
-  std::string name;  ///< of the files that are written for it
-  DepthView depth;   ///< of `pixels`, or of memory that the source keeps until the next frame
-  cv::Mat pixels;    ///< owns the image where the source does not
+  std::string name;      ///< of the files that are written for it
+  std::string frame_id;  ///< empty where the source does not tell
+  DepthView depth;       ///< of `pixels`, or of memory that the source keeps until the next frame
+  cv::Mat pixels;        ///< owns the image where the source does not
   CameraModel camera;
 };
 

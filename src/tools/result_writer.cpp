@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "depth_summary.h"
 #include "png_files.h"
 #include "ros/overlay.h"
 
@@ -19,13 +20,28 @@ cv::Mat groundMask(const Detection& detection) {
   return labels == static_cast<std::uint8_t>(Label::kGround);
 }
 
+/// @return a text as a field of a CSV file (RFC 4180).
+std::string quoted(const std::string& text) {
+  if (text.empty()) return text;
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return field + '"';
+}
+
+/// @return why there is no plane; where no depth is in range also what the depths look like.
+std::string reasonOf(const Frame& frame, const Detection& detection) {
+  const std::string more =
+      detection.state == State::kNoDepth ? describeDepths(frame.depth) : std::string();
+  return detection.reason + (more.empty() ? "" : " " + more);
+}
+
 }  // namespace
 
 ResultWriter::ResultWriter(const std::string& folder) : folder_(folder) {
   for (const char* name : {"/masks", "/overlays"}) makeFolder(folder + name);
   planes_.open(folder + "/planes.csv");
   if (!planes_) throw std::runtime_error(folder + "/planes.csv: could not be written");
-  planes_ << "frame,state,normal_x,normal_y,normal_z,distance,mse,inliers,ms\n";
+  planes_ << "frame,state,normal_x,normal_y,normal_z,distance,mse,inliers,ms,reason\n";
 }
 
 void ResultWriter::write(const Frame& frame, const Detection& detection, double ms) {
@@ -37,25 +53,30 @@ void ResultWriter::write(const Frame& frame, const Detection& detection, double 
   } else {
     planes_ << ",,,,";
   }
-  planes_ << ',' << detection.inliers << ',' << std::setprecision(4) << ms << '\n';
+  planes_ << ',' << detection.inliers << ',' << std::setprecision(4) << ms << ','
+          << quoted(reasonOf(frame, detection)) << '\n';
   if (!planes_.flush()) throw std::runtime_error(folder_ + "/planes.csv: could not be written");
   writePng(folder_ + "/masks", frame.name, groundMask(detection));
   cv::Mat picture = greyPicture(frame.depth);
   paintOverlay(detection, picture);
   writePng(folder_ + "/overlays", frame.name, picture);
-  ++states_[stateName(detection.state)];
+  Outcome& outcome = outcomes_[stateName(detection.state)];
+  if (outcome.images++ == 0) outcome.first_reason = reasonOf(frame, detection);
   ms_.push_back(ms);
 }
 
 std::string ResultWriter::summary() const {
   std::ostringstream text;
   text << ms_.size() << " images";
-  for (const auto& [state, count] : states_) text << ", " << count << ' ' << state;
+  for (const auto& [state, outcome] : outcomes_) text << ", " << outcome.images << ' ' << state;
   if (!ms_.empty()) {
     std::vector<double> sorted = ms_;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
     text << std::setprecision(3) << ", median " << *middle << " ms";
+  }
+  for (const auto& [state, outcome] : outcomes_) {
+    if (!outcome.first_reason.empty()) text << '\n' << state << ": " << outcome.first_reason;
   }
   return text.str();
 }

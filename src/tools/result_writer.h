@@ -20,13 +20,19 @@ class ResultWriter {
   /// @param ms [ms] time of the detector alone.
   void write(const Frame& frame, const Detection& detection, double ms);
 
-  /// @return one line: how many images, of which state, and the median time.
+  /// @return a line with how many images, of which state, and the median time, and one for each
+  /// state without a plane with the reason that came first.
   std::string summary() const;
 
  private:
+  struct Outcome {
+    std::size_t images = 0;
+    std::string first_reason;
+  };
+
   std::string folder_;
   std::ofstream planes_;
-  std::map<std::string, std::size_t> states_;
+  std::map<std::string, Outcome> outcomes_;  ///< by the state's name
   std::vector<double> ms_;
 };
 

@@ -115,6 +115,44 @@ TEST(DepthFit, ExactPairsGiveExactConstants) {
   }
 }
 
+/// Few pairs hold little against a poor minimum of the many that a curve of four constants has.
+TEST(DepthFit, FewExactPairsAreAllUsed) {
+  const DepthCalibration truth = DepthCalibration::paper();
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> uniform(26.0, 2040.0);
+  for (std::size_t n = 6; n <= 12; ++n) {
+    for (int trial = 0; trial < 10; ++trial) {
+      std::vector<DepthPair> pairs;
+      while (pairs.size() < n) {
+        const double raw = std::round(uniform(generator));
+        pairs.push_back({raw, truth.evaluate(raw), 0.0});
+      }
+      const DepthFit fit = fitDepth(pairs, optionsFor(Form::kExponential));
+      EXPECT_EQ(std::count(fit.outliers.begin(), fit.outliers.end(), true), 0) << n;
+      EXPECT_LT(fit.worst, 1e-3) << n << " pairs, trial " << trial;
+    }
+  }
+}
+
+/// Of the residuals of few pairs little is known: the interval has to be the wider for it.
+TEST(DepthFit, IntervalsHoldTheTruthInTwoOfThreeFitsHoweverFewPairs) {
+  const DepthCalibration truth = DepthCalibration::kinect();
+  for (const int n : {4, 6, 10}) {
+    std::vector<double> raws;
+    for (int i = 0; i < n; ++i) raws.push_back(434.0 + 570.0 * i / (n - 1.0));
+    Coverage a, b;
+    for (unsigned seed = 0; seed < 300; ++seed) {
+      const DepthFit fit = fitDepth(measure(truth, raws, seed), optionsFor(Form::kReciprocal));
+      a.add(fit.calibration.a, truth.a, fit.standard_errors.a);
+      b.add(fit.calibration.b, truth.b, fit.standard_errors.b);
+    }
+    std::cout << n << " pairs: a " << a.one << ", b " << b.one << " of 300 within\n";
+    for (const Coverage& c : {a, b}) {
+      EXPECT_NEAR(c.one, 0.683 * 300, 24) << n;  // three standard deviations of that count
+    }
+  }
+}
+
 TEST(DepthFit, OutliersAreLeftOut) {
   for (const Form form : {Form::kReciprocal, Form::kExponential}) {
     const bool exponential = form == Form::kExponential;

@@ -12,6 +12,8 @@
 namespace dominant_plane_detection {
 namespace {
 
+constexpr const char* kDepth = "camera_depth_optical_frame";
+
 /// What a perfect detector says of free floor.
 Detection seenFrom(const KeyPose& key, double share = 0.8) {
   const Eigen::Isometry3d pose = key.pose();
@@ -46,7 +48,7 @@ TEST(MountEstimateTest, GivesThePoseOverTheFloor) {
   for (const double pitch : {-0.2, 0.0, 0.4, 1.2}) {
     for (const double roll : {-0.3, 0.0, 0.2}) {
       MountEstimate estimate;
-      for (int i = 0; i < 10; ++i) estimate.add(seenFrom(key(0.6, pitch, roll)));
+      for (int i = 0; i < 10; ++i) estimate.add(seenFrom(key(0.6, pitch, roll)), kDepth);
       const Mount mount = estimate.mount();
       EXPECT_NEAR(mount.height, 0.6, 1e-12);
       EXPECT_NEAR(mount.pitch, pitch, 1e-12);
@@ -84,7 +86,8 @@ TEST(MountEstimateTest, ErrorsAreThoseOfTheMean) {
     MountEstimate estimate;
     for (int i = 0; i < 100; ++i) {
       estimate.add(seenFrom(key(0.5 + 0.002 * normal(generator), 0.3 + 0.003 * normal(generator),
-                                0.1 + 0.003 * normal(generator))));
+                                0.1 + 0.003 * normal(generator))),
+                   kDepth);
     }
     const Mount mount = estimate.mount();
     within_one += std::abs(mount.height - 0.5) < mount.height_error ? 1 : 0;
@@ -99,9 +102,9 @@ TEST(MountEstimateTest, ErrorsAreThoseOfTheMean) {
 TEST(MountEstimateTest, RefusesAPlaneThatMoves) {
   MountEstimate rising, nodding, leaning;
   for (int i = 0; i < 50; ++i) {
-    rising.add(seenFrom(key(0.5 + 0.001 * i, 0.3, 0.0)));
-    nodding.add(seenFrom(key(0.5, 0.3 + 0.1 * std::sin(0.3 * i), 0.0)));
-    leaning.add(seenFrom(key(0.5, 0.3, 0.003 * i)));
+    rising.add(seenFrom(key(0.5 + 0.001 * i, 0.3, 0.0)), kDepth);
+    nodding.add(seenFrom(key(0.5, 0.3 + 0.1 * std::sin(0.3 * i), 0.0)), kDepth);
+    leaning.add(seenFrom(key(0.5, 0.3, 0.003 * i)), kDepth);
   }
   EXPECT_NE(problemOf(rising).find("moves"), std::string::npos) << problemOf(rising);
   EXPECT_NE(problemOf(nodding).find("moves"), std::string::npos) << problemOf(nodding);
@@ -110,17 +113,31 @@ TEST(MountEstimateTest, RefusesAPlaneThatMoves) {
 
 TEST(MountEstimateTest, RefusesAPlaneThatIsNotDominant) {
   MountEstimate few, missing, small;
-  for (int i = 0; i < 5; ++i) few.add(seenFrom(key(0.5, 0.3, 0.0)));
+  for (int i = 0; i < 5; ++i) few.add(seenFrom(key(0.5, 0.3, 0.0)), kDepth);
   EXPECT_NE(problemOf(few).find("at least 10"), std::string::npos) << problemOf(few);
   Detection none;
   none.reason = "There is none.";
   for (int i = 0; i < 50; ++i) {
-    missing.add(i % 5 == 0 ? none : seenFrom(key(0.5, 0.3, 0.0)));
-    small.add(seenFrom(key(0.5, 0.3, 0.0), 0.3));
+    missing.add(i % 5 == 0 ? none : seenFrom(key(0.5, 0.3, 0.0)), kDepth);
+    small.add(seenFrom(key(0.5, 0.3, 0.0), 0.3), kDepth);
   }
   EXPECT_NE(problemOf(missing).find("40 of 50: There is none."), std::string::npos)
       << problemOf(missing);
   EXPECT_NE(problemOf(small).find("30 % of the readings"), std::string::npos) << problemOf(small);
+}
+
+/// Registered depth is seen from the colour camera, 4.5 cm to the right of camera_link.
+TEST(MountEstimate, TheLinkIsWhereTheFrameOfTheImagesSays) {
+  EXPECT_EQ(linkOffsetOf("camera_depth_optical_frame"), 0.02);
+  EXPECT_EQ(linkOffsetOf("left_rgb_optical_frame"), 0.045);
+  EXPECT_EQ(linkOffsetOf("rgb"), 0.02);
+  EXPECT_EQ(linkOffsetOf(""), 0.02);
+  MountEstimate registered;
+  for (int i = 0; i < 10; ++i) {
+    registered.add(seenFrom(key(0.6, 0.2, 0.3)), "camera_rgb_optical_frame");
+  }
+  const Mount mount = registered.mount();
+  EXPECT_NEAR(mount.linkHeight(), 0.6 + 0.045 * std::cos(0.2) * std::sin(0.3), 1e-9);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // What record.launch writes is what replay needs: depth with its camera_info, and the picture.
 
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <dynamic_reconfigure/config_tools.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rosbag/bag.h>
@@ -7,7 +9,10 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <future>
 #include <set>
 
 #include "support/ros_test.h"
@@ -15,42 +20,91 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr const char* kBag = "/tmp/dpd_record_test.bag";  // of record.test
+namespace fs = std::filesystem;
 
-TEST(Record, WritesWhatReplayNeeds) {
-  ros::NodeHandle node;
-  Listener<sensor_msgs::Image> images(node, "/camera/depth/image_raw");
-  Listener<sensor_msgs::Image> pictures(node, "/camera/rgb/image_raw");
-  ASSERT_TRUE(spinUntil([&] { return images.size() >= 60 && pictures.size() >= 60; }, 60.0));
-  // The recorder ends its bag when its node is shut down.
-  ASSERT_EQ(std::system("rosnode kill /recorder > /dev/null"), 0);
-  ASSERT_TRUE(spinUntil([] { return std::filesystem::exists(kBag); }));
+/// record.launch as users start it, with a bag in a folder whose name has blanks.
+class Record : public testing::Test {
+ protected:
+  Record() : folder_(fs::temp_directory_path() / ("dpd record " + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~Record() override { fs::remove_all(folder_); }
 
-  rosbag::Bag bag(kBag, rosbag::bagmode::Read);
-  std::set<std::string> topics;
-  std::set<ros::Time> depth, infos;
+  std::string bag() const { return folder_ / "drive of today.bag"; }
+  static std::future<int> launch(const std::string& bag, const std::string& more = "") {
+    const std::string command = "roslaunch dominant_plane_detection record.launch \"bag:=" + bag +
+                                "\" " + more + " > /dev/null 2>&1";
+    return std::async(std::launch::async, [command] { return std::system(command.c_str()); });
+  }
+  static bool ended(std::future<int>& launched) {
+    return launched.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }
+  /// Records until both topics have brought some messages more.
+  void record(const std::string& depth, const std::string& more) {
+    auto launched = launch(bag(), more);
+    ASSERT_TRUE(spinUntil([&] { return fs::exists(bag() + ".active"); }, 60.0));
+    Listener<sensor_msgs::Image> images(node_, depth + "/image_raw");
+    Listener<sensor_msgs::Image> pictures(node_, "/camera/rgb/image_raw");
+    ASSERT_TRUE(spinUntil([&] { return images.size() >= 60 && pictures.size() >= 60; }, 60.0));
+    // The recorder ends its bag when its node is shut down, and the launch with it.
+    ASSERT_EQ(std::system("rosnode kill /recorder > /dev/null"), 0);
+    ASSERT_TRUE(spinUntil([&] { return ended(launched); }, 60.0));
+    ASSERT_TRUE(fs::exists(bag()));
+  }
+  template <typename Message>
+  std::set<ros::Time> stampsOf(const std::string& topic) const {
+    const rosbag::Bag bag(this->bag(), rosbag::bagmode::Read);
+    rosbag::View view(bag, rosbag::TopicQuery(topic));
+    std::set<ros::Time> stamps;
+    for (const auto& message : view) {
+      stamps.insert(message.instantiate<Message>()->header.stamp);
+    }
+    return stamps;
+  }
+  /// While both were recorded, each image has its camera_info.
+  void expectPairs(const std::string& depth) const {
+    const auto images = stampsOf<sensor_msgs::Image>(depth + "/image_raw");
+    const auto infos = stampsOf<sensor_msgs::CameraInfo>(depth + "/camera_info");
+    ASSERT_GE(images.size(), 20U);
+    ASSERT_GE(infos.size(), 20U);
+    const ros::Time begin = std::max(*images.begin(), *infos.begin());
+    const ros::Time end = std::min(*images.rbegin(), *infos.rbegin());
+    for (const ros::Time& stamp : images) {
+      if (stamp >= begin && stamp <= end) {
+        EXPECT_EQ(infos.count(stamp), 1U) << stamp;
+      }
+    }
+  }
+
+  ros::NodeHandle node_;
+  fs::path folder_;
+};
+
+TEST_F(Record, WritesWhatReplayNeeds) {
+  record("/camera/depth", "");
+  const rosbag::Bag bag(this->bag(), rosbag::bagmode::Read);
   rosbag::View all(bag);
+  std::set<std::string> topics;
   for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
     topics.insert(connection->topic);
   }
   EXPECT_EQ(topics, (std::set<std::string>{"/camera/depth/camera_info", "/camera/depth/image_raw",
                                            "/camera/rgb/image_raw", "/tf_static"}));
-  rosbag::View depth_view(bag, rosbag::TopicQuery("/camera/depth/image_raw"));
-  for (const auto& message : depth_view) {
-    const auto image = message.instantiate<sensor_msgs::Image>();
-    ASSERT_TRUE(image);
-    EXPECT_EQ(image->encoding, "16UC1");
-    depth.insert(image->header.stamp);
-  }
-  rosbag::View info_view(bag, rosbag::TopicQuery("/camera/depth/camera_info"));
-  for (const auto& message : info_view) {
-    infos.insert(message.instantiate<sensor_msgs::CameraInfo>()->header.stamp);
-  }
-  EXPECT_GE(depth.size(), 20U);
-  std::size_t matching = 0;
-  for (const ros::Time& stamp : depth) matching += infos.count(stamp);
-  EXPECT_GE(matching, depth.size() - 2) << "the ends may be cut between the two";
-  std::filesystem::remove(kBag);
+  expectPairs("/camera/depth");
+}
+
+TEST_F(Record, WritesRegisteredDepthWhereThatIsWhatThereIs) {
+  dynamic_reconfigure::Reconfigure call;
+  dynamic_reconfigure::ConfigTools::appendParameter(call.request.config, "depth_registration",
+                                                    true);
+  ASSERT_TRUE(ros::service::call("/camera/driver/set_parameters", call));
+  record("/camera/depth_registered", "registration:=true");
+  expectPairs("/camera/depth_registered");
+}
+
+TEST_F(Record, EndsWhereNothingCanBeWritten) {
+  auto launched = launch("/no such folder/drive.bag");
+  EXPECT_TRUE(spinUntil([&] { return ended(launched); }, 60.0));
 }
 
 }  // namespace

@@ -146,6 +146,17 @@ TEST_F(Calibrate, MeasuresWallsWithACameraAndFindsItsCalibration) {
   }
 }
 
+TEST_F(Calibrate, AnApostropheInThePicturesNameIsNoMatter) {
+  const DepthCalibration truth = DepthCalibration::kinect();
+  for (int raw = 500; raw <= 900; raw += 50) {
+    appendPair(path("pairs.csv"), {1.0 * raw, truth.evaluate(raw)});
+  }
+  const std::string picture = path("anne's 'fit'.png");
+  const Outcome outcome = depth("fit " + path("pairs.csv") + " --plot \"" + picture + "\"");
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_FALSE(cv::imread(picture).empty());
+}
+
 TEST_F(Calibrate, AsksForDistancesUntilAnEmptyLine) {
   const Outcome outcome =
       run("printf '1.2\\nfar\\n1.2\\n\\n' | " DPD_CALIBRATE_DEPTH " measure --frames 3 --device '" +

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -29,9 +30,17 @@ std::map<std::string, Row> readCsv(const fs::path& file) {
   std::map<std::string, Row> rows;
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
-    Row row;
-    std::istringstream fields(line + ",");
-    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+    Row row{""};
+    bool quoted = false;
+    for (const char c : line) {
+      if (c == '"') {
+        quoted = !quoted;
+      } else if (c == ',' && !quoted) {
+        row.emplace_back();
+      } else {
+        row.back() += c;
+      }
+    }
     rows[row.front()] = row;
   }
   return rows;
@@ -61,8 +70,9 @@ class DetectPlanes : public testing::Test {
   static std::map<std::string, Row> planes() { return readCsv(folder_ / "out" / "planes.csv"); }
 
   static void expectTruth(const Row& row) {
-    ASSERT_EQ(row.size(), 9U);
+    ASSERT_EQ(row.size(), 10U);
     EXPECT_EQ(row[1], "FOUND");
+    EXPECT_EQ(row[9], "");
     EXPECT_NEAR(std::stod(row[3]), -std::cos(0.22), 0.002);
     EXPECT_NEAR(std::stod(row[4]), -std::sin(0.22), 0.002);
     EXPECT_NEAR(std::stod(row[5]), 0.45, 0.002);
@@ -80,7 +90,7 @@ TEST_F(DetectPlanes, FolderOfPngFiles) {
   const auto rows = planes();
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows.at("frame"), (Row{"frame", "state", "normal_x", "normal_y", "normal_z", "distance",
-                                   "mse", "inliers", "ms"}));
+                                   "mse", "inliers", "ms", "reason"}));
   expectTruth(rows.at("0000"));
   expectTruth(rows.at("0001"));
   const cv::Mat mask = cv::imread(path("out/masks/0001.png"), cv::IMREAD_UNCHANGED);
@@ -172,13 +182,35 @@ TEST_F(DetectPlanes, AnImageWithoutAPlaneHasItsRowAndABlackMask) {
   const Outcome outcome = detect(path("empty.png") + kCamera);
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   const Row row = planes().at("empty");
-  ASSERT_EQ(row.size(), 9U);
+  ASSERT_EQ(row.size(), 10U);
+  EXPECT_NE(row[9].find("There are no readings at all"), std::string::npos) << row[9];
   EXPECT_EQ(row[1], "NO_DEPTH");
   for (int i = 2; i <= 6; ++i) EXPECT_EQ(row[static_cast<std::size_t>(i)], "");
   EXPECT_EQ(row[7], "0");
   const cv::Mat mask = cv::imread(path("out/masks/empty.png"), cv::IMREAD_UNCHANGED);
   EXPECT_EQ(mask.size(), cv::Size(640, 480));
   EXPECT_EQ(cv::countNonZero(mask), 0);
+}
+
+/// Fifths of a millimetre taken for millimetres: nothing is in range, and that is said.
+TEST_F(DetectPlanes, AWrongDepthScaleIsToldByWhatTheDepthsLookLike) {
+  cv::Mat depth = cv::imread(path("images/depth/0000.png"), cv::IMREAD_UNCHANGED);
+  depth = depth * 5 + 4500;
+  cv::imwrite(path("fifths.png"), depth);
+  const Outcome outcome = detect(path("fifths.png") + kCamera);
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.text.find("1 images, 1 NO_DEPTH"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("between 0.50 and 4.00 m"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("is --depth-scale right"), std::string::npos) << outcome.text;
+  const std::string reason = planes().at("fifths")[9];
+  double near = 0.0, far = 0.0;
+  ASSERT_EQ(std::sscanf(reason.c_str() + reason.find("Nine"),
+                        "Nine of ten readings are from %lf to %lf m", &near, &far),
+            2)
+      << reason;
+  EXPECT_GT(near, 4.0);
+  EXPECT_LT(near, far);
+  EXPECT_LT(far, 65.6);
 }
 
 TEST_F(DetectPlanes, EqualStemsGetTheirFoldersNames) {

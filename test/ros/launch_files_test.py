@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""What the launch files make of their arguments: parameters, topics and command lines, without running any."""
+import os
+import pathlib
+import shlex
+import tempfile
+import unittest
+
+import roslaunch.config
+import roslaunch.xmlloader
+
+LAUNCH = pathlib.Path(__file__).resolve().parent.parent.parent / "launch"
+
+
+def load(name, **arguments):
+    config = roslaunch.config.ROSLaunchConfig()
+    roslaunch.xmlloader.XmlLoader().load(
+        str(LAUNCH / (name + ".launch")), config, verbose=False,
+        argv=["{}:={}".format(key, value) for key, value in arguments.items()])
+    return config
+
+
+def parameters(config, node):
+    """Returns {name: value} of a node's private parameters."""
+    prefix = node + "/"
+    return {key[len(prefix):]: each.value for key, each in config.params.items()
+            if key.startswith(prefix)}
+
+
+def arguments_of(config, name):
+    """Returns the command line of a node as roslaunch takes it apart."""
+    node, = [node for node in config.nodes if node.name == name]
+    return shlex.split(node.args)
+
+
+class Parameters(unittest.TestCase):
+    def setUp(self):
+        handle, self.file = tempfile.mkstemp(suffix=".yaml")
+        with os.fdopen(handle, "w") as file:
+            file.write("depth_registration: true\nraw_disparity: false\nz_scale: 1.02\n"
+                       "depth_calibration: /mine.yaml\ndepth_camera_info_url: file:///mine.yaml\n")
+
+    def tearDown(self):
+        os.remove(self.file)
+
+    def test_a_file_holds_where_no_argument_is_given(self):
+        driver = parameters(load("camera", params=self.file), "/camera/driver")
+        self.assertIs(driver["depth_registration"], True)
+        self.assertIs(driver["raw_disparity"], False)
+        self.assertEqual(driver["z_scale"], 1.02)
+        self.assertEqual(driver["depth_calibration"], "/mine.yaml")
+        self.assertEqual(driver["depth_camera_info_url"], "file:///mine.yaml")
+        self.assertEqual(driver["device_id"], "#1")
+
+    def test_an_argument_overrides_the_file(self):
+        driver = parameters(load("camera", params=self.file, depth_registration="false",
+                                 raw_disparity="true", depth_calibration="/other.yaml",
+                                 depth_camera_info_url="file:///other.yaml"), "/camera/driver")
+        self.assertIs(driver["depth_registration"], False)
+        self.assertIs(driver["raw_disparity"], True)
+        self.assertEqual(driver["depth_calibration"], "/other.yaml")
+        self.assertEqual(driver["depth_camera_info_url"], "file:///other.yaml")
+
+    def test_robots_and_hands_take_a_file_for_the_driver_too(self):
+        for name in ("pioneer", "handheld"):
+            config = load(name, driver_params=self.file)
+            driver = parameters(config, "/camera/driver")
+            self.assertEqual(driver["z_scale"], 1.02, name)
+            # Topics depend on these two, so that they are the arguments' own.
+            self.assertIs(driver["depth_registration"], False, name)
+            detection, = [node for node in config.nodes if node.name == "plane_detection"]
+            self.assertEqual(dict(detection.remap_args)["depth/image_raw"],
+                             "/camera/depth/image_raw", name)
+
+
+class CommandLines(unittest.TestCase):
+    BAG = "/a folder/of mine/drive.bag"
+
+    def test_paths_may_have_blanks(self):
+        record = arguments_of(load("record", bag=self.BAG), "recorder")
+        self.assertIn("--output-name=" + self.BAG, record)
+        self.assertIn(self.BAG, arguments_of(load("replay", bag=self.BAG), "player"))
+
+    def test_record_takes_the_topics_that_there_are(self):
+        record = arguments_of(load("record", bag=self.BAG), "recorder")
+        self.assertEqual(record[-5:], ["/camera/depth/image_raw", "/camera/depth/camera_info",
+                                       "/camera/rgb/image_raw", "/tf", "/tf_static"])
+        registered = arguments_of(load("record", bag=self.BAG, registration="true"), "recorder")
+        self.assertEqual(registered[-5:-3], ["/camera/depth_registered/image_raw",
+                                             "/camera/depth_registered/camera_info"])
+
+    def test_a_recorder_that_ends_ends_the_launch(self):
+        recorder, = [node for node in load("record", bag=self.BAG).nodes if node.name == "recorder"]
+        self.assertTrue(recorder.required)
+
+
+if __name__ == "__main__":
+    unittest.main()
