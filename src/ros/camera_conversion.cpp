@@ -1,35 +1,61 @@
 #include "ros/camera_conversion.h"
 
-#include <sensor_msgs/distortion_models.h>
-
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 namespace dominant_plane_detection {
 namespace {
 
+/// A distortion model, and the numbers of coefficients that it may come with: of OpenCV's, those
+/// after the first `used` are of a tilted sensor or a thin prism, and have to be zero.
+struct KnownDistortion {
+  const char* name;
+  DistortionModel model;
+  std::size_t used;
+  std::vector<std::size_t> sizes;
+};
+
+const KnownDistortion* findDistortion(const std::string& name) {
+  static const KnownDistortion known[] = {
+      {"plumb_bob", DistortionModel::kPlumbBob, 5, {4, 5}},
+      {"rational_polynomial", DistortionModel::kRationalPolynomial, 8, {8, 12, 14}}};
+  for (const KnownDistortion& each : known) {
+    if (name == each.name) return &each;
+  }
+  return nullptr;
+}
+
+bool allZero(std::vector<double>::const_iterator begin, std::vector<double>::const_iterator end) {
+  return std::all_of(begin, end, [](double d) { return d == 0.0; });
+}
+
 /// @return whether the distortion was understood.
 bool readDistortion(const sensor_msgs::CameraInfo& info, CameraModel& camera, std::string& error) {
-  const bool all_zero =
-      std::all_of(info.D.begin(), info.D.end(), [](double d) { return d == 0.0; });
-  if (all_zero) return true;
-  std::size_t expected = 0;
-  if (info.distortion_model == sensor_msgs::distortion_models::PLUMB_BOB) {
-    camera.distortion = DistortionModel::kPlumbBob;
-    expected = 5;
-  } else if (info.distortion_model == sensor_msgs::distortion_models::RATIONAL_POLYNOMIAL) {
-    camera.distortion = DistortionModel::kRationalPolynomial;
-    expected = 8;
-  } else {
+  if (allZero(info.D.begin(), info.D.end())) return true;
+  const KnownDistortion* const known = findDistortion(info.distortion_model);
+  if (known == nullptr) {
     error = "expected the distortion model plumb_bob or rational_polynomial, got '" +
             info.distortion_model + "'";
     return false;
   }
-  if (info.D.size() != expected) {
-    error = "expected " + std::to_string(expected) + " coefficients of " + info.distortion_model +
-            ", got " + std::to_string(info.D.size());
+  if (std::find(known->sizes.begin(), known->sizes.end(), info.D.size()) == known->sizes.end()) {
+    for (const std::size_t size : known->sizes) {
+      error += (error.empty() ? "expected " : " or ") + std::to_string(size);
+    }
+    error += " coefficients of " + info.distortion_model + ", got " + std::to_string(info.D.size());
     return false;
   }
-  std::copy(info.D.begin(), info.D.end(), camera.coefficients.begin());
+  const auto used =
+      info.D.begin() + static_cast<std::ptrdiff_t>(std::min(known->used, info.D.size()));
+  if (!allZero(used, info.D.end())) {
+    error = "expected the coefficients of " + info.distortion_model + " after the first " +
+            std::to_string(known->used) +
+            ", of a thin prism and a tilted sensor, to be zero: a depth camera has neither";
+    return false;
+  }
+  camera.distortion = known->model;
+  std::copy(info.D.begin(), used, camera.coefficients.begin());
   return true;
 }
 

@@ -20,8 +20,9 @@ struct ImageSize {
 ImageSize imageSize(const sensor_msgs::CameraInfo& info);
 
 /// Makes the camera of the images that come with a camera_info.
-/// @param rectified false: K and D (plumb_bob, rational_polynomial; empty: none); true: P alone,
-/// for images that are rectified already.
+/// @param rectified false: K and D (plumb_bob with 4 or 5 coefficients, rational_polynomial with 8,
+/// or with 12 or 14 of which the rest are zero; empty: none); true: P alone, for images that are
+/// rectified already.
 /// @param error one sentence with what was expected and what came, if there is no camera.
 /// @return the camera at the resolution and in the region that the images have, see `imageSize`.
 std::optional<CameraModel> cameraModel(const sensor_msgs::CameraInfo& info, bool rectified,

@@ -146,15 +146,44 @@ TEST(CameraConversion, SaysWhatIsWrongWithACameraInfo) {
   EXPECT_FALSE(cameraModel(info, false, error));
   EXPECT_NE(error.find("'fisheye'"), std::string::npos) << error;
   info = cameraInfo();
-  info.D.resize(4);
+  info.D.resize(3);
   EXPECT_FALSE(cameraModel(info, false, error));
-  EXPECT_NE(error.find("got 4"), std::string::npos) << error;
+  EXPECT_NE(error.find("got 3"), std::string::npos) << error;
   info = cameraInfo();
   info.K[0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(cameraModel(info, false, error));
   info = cameraInfo();
   info.roi.x_offset = 5000;  // beyond the image
   EXPECT_FALSE(cameraModel(info, false, error));
+}
+
+TEST(CameraModelOfInfo, DistortionsOfEveryLength) {
+  std::string error;
+  sensor_msgs::CameraInfo info = cameraInfo();
+  info.distortion_model = "plumb_bob";
+  info.D = {0.1, -0.2, 0.001, 0.002};
+  const auto four = cameraModel(info, false, error);
+  ASSERT_TRUE(four) << error;
+  info.D.push_back(0.0);
+  EXPECT_EQ(*four, *cameraModel(info, false, error));
+  info.D.push_back(0.0);
+  EXPECT_FALSE(cameraModel(info, false, error));
+  EXPECT_NE(error.find("expected 4 or 5 coefficients of plumb_bob, got 6"), std::string::npos)
+      << error;
+
+  info.distortion_model = "rational_polynomial";
+  info.D = {0.1, -0.2, 0.001, 0.002, 0.03, 0.2, -0.1, 0.05};
+  const auto eight = cameraModel(info, false, error);
+  ASSERT_TRUE(eight) << error;
+  EXPECT_EQ(eight->coefficients[7], 0.05);
+  for (const std::size_t size : {12U, 14U}) {
+    info.D.resize(size);
+    EXPECT_EQ(*eight, *cameraModel(info, false, error)) << size;
+    info.D.back() = 1e-3;
+    EXPECT_FALSE(cameraModel(info, false, error));
+    EXPECT_NE(error.find("after the first 8"), std::string::npos) << error;
+    info.D.back() = 0.0;
+  }
 }
 
 sensor_msgs::PointCloud2 organisedCloud(const CameraModel& camera, const OwnedDepth<float>& depth) {

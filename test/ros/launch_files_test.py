@@ -73,6 +73,27 @@ class Parameters(unittest.TestCase):
                              "/camera/depth/image_raw", name)
 
 
+class Managers(unittest.TestCase):
+    def managers(self, device_id):
+        """Returns the manager of the driver, that of the detection, and all that are started."""
+        config = load("handheld", device_id=device_id)
+        loads = {node.name: node.args.split()[-1] for node in config.nodes
+                 if node.args.startswith("load ")}
+        started = {node.name for node in config.nodes if node.args == "manager"}
+        return loads["driver"], loads["plane_detection"], started
+
+    def test_a_camera_shares_its_manager_with_the_detection(self):
+        for device_id in ("#1", "virtual://rubbish_bin"):
+            driver, detection, started = self.managers(device_id)
+            self.assertEqual(driver, detection)
+            self.assertEqual(started, {driver})
+
+    def test_a_recording_is_played_in_a_manager_of_its_own(self):
+        driver, detection, started = self.managers("/recordings/old.oni")
+        self.assertNotEqual(driver, detection)
+        self.assertEqual(started, {driver, detection})
+
+
 class CommandLines(unittest.TestCase):
     BAG = "/a folder/of mine/drive.bag"
 
