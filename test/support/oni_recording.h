@@ -63,4 +63,23 @@ inline std::vector<std::vector<std::uint16_t>> recordOni(
   return pixels;
 }
 
+/// Reads all depth frames of a recording with OpenNI2's own player, one after the other. What was
+/// read while it was recorded need not be all of it.
+inline std::vector<std::vector<std::uint16_t>> readOni(const std::string& file) {
+  const auto runtime = OpenNi2Runtime::instance();
+  auto device = runtime->open(file);
+  openni::VideoStream stream;
+  if (stream.create(*device, openni::SENSOR_DEPTH) != openni::STATUS_OK ||
+      device->getPlaybackControl()->setSpeed(-1.0F) != openni::STATUS_OK ||
+      stream.start() != openni::STATUS_OK) {
+    throw std::runtime_error(lastOpenNi2Error());
+  }
+  std::vector<std::vector<std::uint16_t>> pixels;
+  const int frames = device->getPlaybackControl()->getNumberOfFrames(stream);
+  for (int i = 0; i < frames; ++i) pixels.push_back(readDepth(stream));
+  stream.destroy();
+  runtime->close(std::move(device));
+  return pixels;
+}
+
 }  // namespace dominant_plane_detection
