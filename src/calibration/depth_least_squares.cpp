@@ -134,6 +134,11 @@ DepthCalibration standardErrors(const DepthCalibration& calibration,
   // How large errors are is told by the residuals, better than by the tape's user; the fewer they
   // are the less they know, and the wider the interval is that holds the truth in 68 of 100 fits.
   const double freedom = count - n;
+  if (freedom < 1.0) {  // as many constants as pairs: nothing is left to judge them by
+    DepthCalibration unknown;
+    unknown.form = calibration.form;
+    return unknown;
+  }
   const double sigma_share = 0.5 * (1.0 + std::erf(std::sqrt(0.5)));  // below one sigma
   const double width = boost::math::quantile(boost::math::students_t(freedom), sigma_share);
   const double variance = squares / freedom * width * width;

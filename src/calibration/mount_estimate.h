@@ -13,7 +13,7 @@ namespace dominant_plane_detection {
 /// them.
 struct Mount {
   std::size_t frames = 0;  ///< [#] with a plane
-  double height = 0.0;     ///< [m] of the depth camera over the floor
+  double height = 0.0;     ///< [m] of the camera that depth is seen from, over the floor
   double pitch = 0.0;      ///< [rad] down, about the axis to the left
   double roll = 0.0;       ///< [rad] to the right, about the axis forward, after the pitch
   double height_error = 0.0;

@@ -90,11 +90,12 @@ void OpenNI2DriverNodelet::start() {
   callbacks.acceleration = [this](const openni2_plugin::Acceleration& acceleration) {
     onAcceleration(acceleration);
   };
+  serial_server_.shutdown();  // of an attempt that failed
+  serial_server_ =
+      getNodeHandle().advertiseService("get_serial", &OpenNI2DriverNodelet::onGetSerial, this);
   const DriverParameters now = parameters();
   session_ = std::make_unique<DeviceSession>(readDeviceId(private_node), now.camera,
                                              now.watchdog_timeout, std::move(callbacks));
-  serial_server_ =
-      getNodeHandle().advertiseService("get_serial", &OpenNI2DriverNodelet::onGetSerial, this);
   offerParameters();
 }
 
@@ -180,7 +181,7 @@ void OpenNI2DriverNodelet::onReconfigure(OpenNI2DriverConfig& config) {
 
 bool OpenNI2DriverNodelet::onGetSerial(GetSerial::Request& /*request*/,
                                        GetSerial::Response& response) {
-  response.serial = session_->status().camera.serial;
+  if (session_) response.serial = session_->status().camera.serial;
   return true;
 }
 

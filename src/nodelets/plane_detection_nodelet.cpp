@@ -46,6 +46,9 @@ void PlaneDetectionNodelet::start() {
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   detector_ = DominantPlaneDetector(loadParameters<Parameters, PlaneDetectionConfig>(
       private_node, {"input", "rectified", "image_transport"}));
+  // An attempt that failed may have left some of these, and services are offered once at a time.
+  reconfigure_.reset();
+  mount_service_.reset();
   inputs_ = std::make_unique<DetectionInputs>(
       node, private_node, readInputKind(private_node), private_node.param("rectified", false),
       [this](const DetectionInputs::Frame& frame) { onFrame(frame); });
@@ -92,6 +95,7 @@ void PlaneDetectionNodelet::onFrame(const DetectionInputs::Frame& frame) {
     outputs_.publish(frame, detection, time.count());
     overlay_->publish(frame, detection);
   } catch (const std::exception& error) {
+    diagnostics_->countFailure(error.what());
     NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped an image: " << error.what());
   }
 }

@@ -11,6 +11,7 @@ constexpr double kLatePatience = 1.0;     // [s] for which all frames have to be
 constexpr double kStep = 1e-6;            // [s] least distance of two stamps
 constexpr double kSetBack = 0.5;          // [s] by which a clock that was set back is known
 constexpr double kStraggler = 0.5;        // [s] within which streams follow the others in a jump
+constexpr double kFarOff = 1.0;           // [s] before a new beginning, as no frame of it can be
 constexpr std::size_t kGiven = 32;        // [#] stamps in which equal ones are looked for
 
 }  // namespace
@@ -18,8 +19,9 @@ constexpr std::size_t kGiven = 32;        // [#] stamps in which equal ones are 
 /// While one stream of a looping recording has begun anew another may still bring its last frames.
 bool ClockFilter::isOfEarlierEpoch(const Stream& stream, std::uint64_t device,
                                    double arrival) const {
-  return stream.last && stream.epoch + 1 == epoch_ && device >= stream.last->device &&
-         arrival - restarted_at_ < kStraggler;
+  if (!stream.last || stream.epoch + 1 != epoch_ || device < stream.last->device) return false;
+  const bool far_off = arrival - 1e-6 * static_cast<double>(device) < offset_ - kFarOff;
+  return arrival - restarted_at_ < kStraggler || far_off;
 }
 
 void ClockFilter::beginEpoch(Stream& stream, double device, double offset) {
@@ -57,7 +59,9 @@ double ClockFilter::stamp(std::size_t number, std::uint64_t device_us, double ar
     stream.epoch = epoch_;
     newest_device_ = std::max(newest_device_, device);
     if (offset - offset_ < kLate) late_since_ = std::max(late_since_, device);
-    if (const std::optional<double> equal = given(device_us)) {
+    const std::optional<double> equal = given(device_us);
+    const bool again = stream.last && stream.last->device == device_us;
+    if (equal && (again || !stream.last || set_back || *equal > stream.last->stamp)) {
       stamp = *equal;
     } else {
       stamp = device + offset_;

@@ -37,14 +37,14 @@ void DeviceSession::end() {
 
 void DeviceSession::want(StreamKind kind, bool wanted) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  demand_.streams[static_cast<std::size_t>(kind)] = wanted;
+  if (std::exchange(demand_.streams[static_cast<std::size_t>(kind)], wanted) == wanted) return;
   demand_changed_ = true;
   changed_.notify_all();
 }
 
 void DeviceSession::wantAcceleration(bool wanted) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  demand_.acceleration = wanted;
+  if (std::exchange(demand_.acceleration, wanted) == wanted) return;
   demand_changed_ = true;
   changed_.notify_all();
 }
@@ -120,6 +120,7 @@ void DeviceSession::step() {
 }
 
 void DeviceSession::search() {
+  const Clock::time_point begin = Clock::now();
   std::string problem;
   try {
     if (!runtime_) {
@@ -143,7 +144,7 @@ void DeviceSession::search() {
   if (camera_) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    reconnect_.searchedInVain(Clock::now());
+    reconnect_.searchedInVain(begin, Clock::now());
     status_.problem = problem;
   }
   if (problem != last_problem_) ROS_WARN_STREAM("Waiting for a camera: " << problem << ".");
@@ -171,6 +172,7 @@ void DeviceSession::connect(const std::string& uri) {
     ROS_ERROR_STREAM("Refused settings of " << describe(camera_->description()) << ": " << refusal
                                             << "; what it does by itself is used.");
   }
+  callbacks_.opened(*camera_);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     reconnect_.opened(Clock::now());
@@ -180,7 +182,6 @@ void DeviceSession::connect(const std::string& uri) {
     ++status_.connections;
   }
   ROS_INFO_STREAM("Opened " << describe(camera_->description()) << ".");
-  callbacks_.opened(*camera_);
 }
 
 void DeviceSession::disconnect(const std::string& why) {
@@ -222,8 +223,9 @@ std::string DeviceSession::changeTo(const CameraSettings& settings) {
     requested_ = settings;
     return "";
   }
+  // What it could not do before, and does not have to do now, refuses nothing else.
   std::string refusal = camera_->refusal(settings);
-  if (!refusal.empty()) return refusal;
+  if (!refusal.empty() && refusal != camera_->refusal(requested_)) return refusal;
   const CameraSettings old = settings_;
   const bool other_depth = old.depth_registration != settings.depth_registration ||
                            old.raw_disparity != settings.raw_disparity;
@@ -241,7 +243,7 @@ std::string DeviceSession::changeTo(const CameraSettings& settings) {
     if (problem.empty()) followDemand();
     return problem;
   };
-  refusal = restartWith(settings);
+  refusal = restartWith(camera_->possible(settings));
   if (!camera_) return "the camera was lost meanwhile";
   for (const StreamKind kind : kAllStreams) {
     const StreamStatus& status = supervisor(kind).status();
@@ -256,12 +258,12 @@ std::string DeviceSession::changeTo(const CameraSettings& settings) {
   return refusal;
 }
 
-/// @return whether another stream of the camera gives images.
-bool DeviceSession::othersHeard(StreamKind kind, double patience) const {
+/// @return whether another stream of the camera runs, and is not silent yet.
+bool DeviceSession::othersRun(StreamKind kind, double patience) const {
   return std::any_of(kAllStreams, kAllStreams + kStreamKinds, [&](StreamKind other) {
     if (other == kind || !camera_->has(other)) return false;
     const SensorStream& stream = camera_->stream(other);
-    return stream.running() && stream.heard() && stream.silence() < patience;
+    return stream.running() && stream.silence() < patience;
   });
 }
 
@@ -272,9 +274,9 @@ void DeviceSession::followDemand() {
     for (const StreamKind kind : kAllStreams) {
       if (demand.streams[static_cast<std::size_t>(kind)] != wanted) continue;
       StreamSupervisor& each = supervisor(kind);
-      const bool others_heard = othersHeard(kind, demand.patience);
-      each.follow(*camera_, settings_, {wanted, demand.patience, others_heard});
-      if (!each.isHopeless() || others_heard) continue;
+      const bool others_run = othersRun(kind, demand.patience);
+      each.follow(*camera_, settings_, {wanted, demand.patience, others_run});
+      if (!each.isHopeless() || others_run) continue;
       return disconnect(each.status().text + ", and starting the stream anew did not help");
     }
   }

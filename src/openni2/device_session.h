@@ -86,7 +86,7 @@ class DeviceSession {
   std::string changeTo(const CameraSettings& settings);
   void followDemand();
   void readAcceleration(const Demand& demand);
-  bool othersHeard(StreamKind kind, double patience) const;
+  bool othersRun(StreamKind kind, double patience) const;
   void onDeviceEvent(const std::string& gone);
   void publishStatus();
   Demand demand() const;

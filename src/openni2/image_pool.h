@@ -16,6 +16,10 @@ namespace dominant_plane_detection {
 /// used from any thread; messages may outlive the pool.
 class ImagePool {
  public:
+  /// [byte] More than that is not to be handed to subscribers at a time: 22 s of depth, 14 s of
+  /// colour at 640x480 and 30 Hz.
+  static constexpr std::size_t kMostTaken = 400'000'000;
+
   /// @param spare [#] of messages that are kept for reuse; more are freed.
   explicit ImagePool(std::size_t spare = 8);
 

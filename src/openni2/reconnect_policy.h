@@ -13,7 +13,9 @@ class ReconnectPolicy {
 
   bool due(Clock::time_point now) const { return now >= next_; }
 
-  void searchedInVain(Clock::time_point now) {
+  /// @param begin of the search: a camera that was plugged in since then is looked for at once.
+  void searchedInVain(Clock::time_point begin, Clock::time_point now) {
+    if (arrived_ >= begin) return;
     next_ = now + back_off_;
     back_off_ = std::min(2 * back_off_, kLongest);
   }
@@ -28,7 +30,10 @@ class ReconnectPolicy {
     next_ = std::max(earliest_, now + kShortest);
   }
   /// Some camera was plugged in.
-  void arrived(Clock::time_point now) { next_ = std::max(earliest_, now); }
+  void arrived(Clock::time_point now) {
+    arrived_ = now;
+    next_ = std::max(earliest_, now);
+  }
 
  private:
   using Duration = std::chrono::milliseconds;
@@ -39,6 +44,7 @@ class ReconnectPolicy {
   Clock::time_point next_;      ///< look
   Clock::time_point earliest_;  ///< look, whatever is plugged in
   Clock::time_point opened_;
+  Clock::time_point arrived_;
   Duration back_off_ = kShortest;
   Duration penalty_{0};
 };

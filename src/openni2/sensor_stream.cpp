@@ -45,9 +45,6 @@ VideoMode toMode(const openni::VideoMode& mode) {
   return {mode.getResolutionX(), mode.getResolutionY(), mode.getFps()};
 }
 
-/// [byte] of images that subscribers in this process may keep: a quarter of a minute and more.
-constexpr std::size_t kMostTaken = 400'000'000;
-
 /// @return [byte] that an image of the frame's size has.
 std::size_t imageBytes(const openni::VideoFrameRef& frame) {
   return static_cast<std::size_t>(frame.getStrideInBytes()) *
@@ -204,7 +201,7 @@ void SensorStream::deliver() {
   if (!read(frame)) return;
   last_sign_ = steadyNanoseconds();
   heard_ = true;
-  if (allocator_->pool.takenBytes() > kMostTaken) {
+  if (allocator_->pool.takenBytes() > ImagePool::kMostTaken) {
     // Left out: the numbers of the frames tell that it is missing.
     ROS_WARN_STREAM_THROTTLE(5.0, "Subscribers in this process keep "
                                       << allocator_->pool.takenBytes() / 1000000 << " MB of "

@@ -69,9 +69,9 @@ void StreamSupervisor::watch(CameraDevice& camera, const CameraSettings& setting
   // Where other streams run, reopening the camera would do more harm than good: this one is started
   // less and less often.
   const int beyond = restarts_in_a_row_ - kRestarts;
-  if (demand.others_heard && stream.silence() < demand.patience * backOffFactor(beyond)) return;
+  if (demand.others_run && stream.silence() < demand.patience * backOffFactor(beyond)) return;
   ++restarts_in_a_row_;
-  if (isHopeless() && !demand.others_heard) return;
+  if (isHopeless() && !demand.others_run) return;
   ++status_.restarts;
   ROS_WARN_STREAM(describe(camera.description())
                   << ": " << status_.text << "; the stream is started anew.");

@@ -29,8 +29,8 @@ class StreamSupervisor {
  public:
   struct Demand {
     bool wanted;
-    double patience;    ///< [s] without an image until it is started anew
-    bool others_heard;  ///< other streams of the camera give images
+    double patience;  ///< [s] without an image until it is started anew
+    bool others_run;  ///< other streams of the camera run and are not silent
   };
 
   explicit StreamSupervisor(StreamKind kind) : kind_(kind) {}

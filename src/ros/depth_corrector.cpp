@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace dominant_plane_detection {
 namespace {
@@ -57,6 +59,11 @@ sensor_msgs::ImagePtr DepthCorrector::correct(const sensor_msgs::ImagePtr& depth
 
 /// @return an image of the same size and kind, whose pixels have yet to be written.
 sensor_msgs::ImagePtr DepthCorrector::likeness(const sensor_msgs::Image& image) {
+  if (pool_.takenBytes() > ImagePool::kMostTaken) {
+    throw std::runtime_error("subscribers in this process keep " +
+                             std::to_string(pool_.takenBytes() / 1000000) +
+                             " MB of corrected depth images; no more are made until they let go");
+  }
   const sensor_msgs::ImagePtr other = pool_.make(image.data.size());
   other->width = image.width;
   other->height = image.height;

@@ -27,6 +27,7 @@ class DepthCorrector {
 
   /// @param depth 16UC1, in millimetres, or raw disparity.
   /// @return the same image where there is nothing to correct.
+  /// @throw std::runtime_error where subscribers keep more images than ImagePool::kMostTaken.
   sensor_msgs::ImagePtr correct(const sensor_msgs::ImagePtr& depth, bool raw);
 
  private:

@@ -33,6 +33,11 @@ void DetectionDiagnostics::count(const Detection& detection, double seconds) {
   reason_ = detection.reason;
 }
 
+void DetectionDiagnostics::countFailure(const std::string& error) {
+  ++period_.failures;
+  reason_ = error;
+}
+
 void DetectionDiagnostics::report(const Input& input) {
   const ros::SteadyTime now = ros::SteadyTime::now();
   length_ = (now - begin_).toSec();
@@ -57,6 +62,8 @@ void DetectionDiagnostics::summarise(diagnostic_updater::DiagnosticStatusWrapper
     status.summary(DiagnosticStatus::OK, "idle: nobody listens");
   } else if (!input_.problem.empty()) {
     status.summary(DiagnosticStatus::ERROR, input_.problem);
+  } else if (period_.failures > 0) {
+    status.summary(DiagnosticStatus::ERROR, "cannot work on images: " + reason_);
   } else if (refused > 0) {
     status.summaryf(DiagnosticStatus::WARN, "dropped %lu images that cannot be used: %s", refused,
                     input_.counts.refusal.c_str());

@@ -27,6 +27,8 @@ class DetectionDiagnostics {
 
   /// @param seconds [s] that the detection took.
   void count(const Detection& detection, double seconds);
+  /// An image that could not be worked on.
+  void countFailure(const std::string& error);
   /// Publishes what is known, and begins the next period.
   void report(const Input& input);
 
@@ -35,6 +37,7 @@ class DetectionDiagnostics {
   struct Period {
     std::uint64_t images = 0;
     std::uint64_t planes = 0;
+    std::uint64_t failures = 0;
     double sum_seconds = 0.0;
     double most_seconds = 0.0;
   };

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kThrottle = 5.0;  // [s] between lines of the same kind
 /// Messages that wait while one is worked on: only the newest is looked at, the others are counted.
+/// Where more come, roscpp drops the oldest, and nobody counts them.
 constexpr std::uint32_t kQueue = 5;
 
 double steadyNow() { return ros::SteadyTime::now().toSec(); }
@@ -82,7 +83,7 @@ void DetectionInputs::onInfo(const sensor_msgs::CameraInfoConstPtr& info) {
 
 void DetectionInputs::onPair(const std::optional<CameraInfoMatcher::Pair>& pair) {
   if (!pair) return;
-  watch_.sawMatch(steadyNow());
+  watch_.sawMatch();
   if (!pair->exact && !warned_stamps_) {
     warned_stamps_ = true;
     ROS_WARN_STREAM("No " << infos_.getTopic() << " has the stamps of " << images_.getTopic()
@@ -94,7 +95,7 @@ void DetectionInputs::onPair(const std::optional<CameraInfoMatcher::Pair>& pair)
 void DetectionInputs::onPoints(const sensor_msgs::PointCloud2ConstPtr& cloud) {
   ++counts_.received;
   watch_.sawImage(steadyNow());
-  watch_.sawMatch(steadyNow());
+  watch_.sawMatch();
   keepNewest(newest_cloud_, cloud);
 }
 

@@ -57,8 +57,7 @@ void DriverDiagnostics::setWanted(StreamKind kind, bool wanted) {
   Stream& stream = streams_[static_cast<std::size_t>(kind)];
   if (stream.wanted == wanted) return;
   stream.wanted = wanted;
-  stream.since = ros::SteadyTime::now();
-  stream.reported = stream.frames;
+  stream.beginPeriod();
   stream.last_number = -1;
 }
 
@@ -114,6 +113,7 @@ void DriverDiagnostics::reportStream(StreamKind kind,
     report.summary(DiagnosticStatus::OK, "idle: nobody listens");
   } else if (!status_.open) {
     report.summary(DiagnosticStatus::ERROR, "there is no camera");
+    stream.beginPeriod();
   } else {
     summarise(status, stream, report);
   }
@@ -125,26 +125,24 @@ void DriverDiagnostics::reportStream(StreamKind kind,
   report.add("times silent and started anew", status.restarts);
 }
 
-/// Of a stream that is wanted.
+/// Of a stream that is wanted. A rate is that of a period in which it streamed from the beginning.
 void DriverDiagnostics::summarise(const StreamStatus& status, Stream& stream,
                                   diagnostic_updater::DiagnosticStatusWrapper& report) const {
-  const ros::SteadyTime now = ros::SteadyTime::now();
-  const double seconds = (now - stream.since).toSec();
-  const bool wrong = status.state == StreamState::kFailed || status.state == StreamState::kSilent;
-  if (wrong || status.state == StreamState::kFinished) {
-    report.summary(wrong ? DiagnosticStatus::ERROR : DiagnosticStatus::OK, status.text);
-  } else if (status.state != StreamState::kStreaming || seconds < kShortest) {
-    report.summary(DiagnosticStatus::OK, "starting");
-    return;
-  } else {
-    const double rate = static_cast<double>(stream.frames - stream.reported) / seconds;
-    const bool slow = rate < kSlow * stream.rate;
-    report.summaryf(slow ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
-                    "%.1f images a second, %d by the mode", rate, stream.rate);
-    report.addf("rate [1/s]", "%.2f", rate);
+  const double seconds = (ros::SteadyTime::now() - stream.since).toSec();
+  if (status.state != StreamState::kStreaming) {
+    const bool wrong = status.state == StreamState::kFailed || status.state == StreamState::kSilent;
+    const bool finished = status.state == StreamState::kFinished;
+    report.summary(wrong ? DiagnosticStatus::ERROR : DiagnosticStatus::OK,
+                   wrong || finished ? status.text : "starting");
+    return stream.beginPeriod();
   }
-  stream.since = now;
-  stream.reported = stream.frames;
+  if (seconds < kShortest) return report.summary(DiagnosticStatus::OK, "starting");
+  const double rate = static_cast<double>(stream.frames - stream.reported) / seconds;
+  const bool slow = rate < kSlow * stream.rate;
+  report.summaryf(slow ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+                  "%.1f images a second, %d by the mode", rate, stream.rate);
+  report.addf("rate [1/s]", "%.2f", rate);
+  stream.beginPeriod();
 }
 
 }  // namespace dominant_plane_detection

@@ -38,6 +38,11 @@ class DriverDiagnostics {
     std::uint64_t incomplete = 0;  ///< [#] ever
     std::uint64_t reported = 0;    ///< [#] of frames at the last report
     ros::SteadyTime since;         ///< of the last report, or of the wish
+
+    void beginPeriod() {
+      since = ros::SteadyTime::now();
+      reported = frames;
+    }
   };
 
   void reportCamera(diagnostic_updater::DiagnosticStatusWrapper& report) const;

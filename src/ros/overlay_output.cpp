@@ -62,7 +62,12 @@ void OverlayOutput::publish(const DetectionInputs::Frame& frame, const Detection
 void OverlayOutput::onPicture(const sensor_msgs::ImageConstPtr& picture) {
   recent_.push_back(picture);
   if (recent_.size() > kPictures) recent_.pop_front();
-  if (waiting_) tryPicture();
+  if (!waiting_) return;
+  try {
+    tryPicture();
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM_THROTTLE(kThrottle, "Dropped an overlay: " << error.what());
+  }
 }
 
 /// @return whether what waits has been published.
@@ -83,12 +88,15 @@ bool OverlayOutput::tryPicture() {
   return true;
 }
 
-/// @return the picture of the depth image's time; null while there is none.
+/// @return the picture that is nearest in time to the depth image; null while there is none.
 sensor_msgs::ImageConstPtr OverlayOutput::pictureOfWaiting() const {
-  const auto found = std::find_if(recent_.rbegin(), recent_.rend(), [&](const auto& picture) {
-    return std::abs((picture->header.stamp - waiting_->header.stamp).toSec()) <= kPictureTolerance;
-  });
-  return found == recent_.rend() ? nullptr : *found;
+  const auto apart = [&](const sensor_msgs::ImageConstPtr& picture) {
+    return std::abs((picture->header.stamp - waiting_->header.stamp).toSec());
+  };
+  const auto nearest =
+      std::min_element(recent_.begin(), recent_.end(),
+                       [&](const auto& a, const auto& b) { return apart(a) < apart(b); });
+  return nearest != recent_.end() && apart(*nearest) <= kPictureTolerance ? *nearest : nullptr;
 }
 
 /// @return 8-bit BGR of the depth image's size; nothing, and a line in the log, where it is none.

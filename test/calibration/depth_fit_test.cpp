@@ -153,6 +153,23 @@ TEST(DepthFit, IntervalsHoldTheTruthInTwoOfThreeFitsHoweverFewPairs) {
   }
 }
 
+/// As many pairs as constants are left: they fit, and say nothing about how well.
+TEST(DepthFit, WithoutASparePairTheErrorsAreUnknown) {
+  const DepthCalibration truth = DepthCalibration::paper();
+  std::vector<DepthPair> pairs;
+  for (const double raw : {60.0, 200.0, 500.0, 1000.0, 1800.0}) {
+    pairs.push_back({raw, truth.evaluate(raw), 0.0});
+  }
+  pairs[2].distance += 0.3;
+  try {
+    const DepthFit fit = fitDepth(pairs, optionsFor(Form::kExponential));
+    EXPECT_EQ(fit.calibration.form, Form::kExponential);
+    EXPECT_EQ(fit.standard_errors.form, Form::kExponential);
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("do not fit"), std::string::npos) << error.what();
+  }
+}
+
 TEST(DepthFit, OutliersAreLeftOut) {
   for (const Form form : {Form::kReciprocal, Form::kExponential}) {
     const bool exponential = form == Form::kExponential;

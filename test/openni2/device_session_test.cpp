@@ -45,15 +45,21 @@ TEST(DeviceSession, EndingAnswersWhoWaits) {
   DeviceSession::Callbacks callbacks;
   callbacks.opened = [](const CameraDevice&) {};
   callbacks.frame = [](StreamKind, const SensorFrame&) {};
-  DeviceSession session("virtual://rubbish_bin?serial=ENDS&slow=1", CameraSettings(), 2.0,
+  DeviceSession session("virtual://rubbish_bin?serial=ENDS&slow=3", CameraSettings(), 2.0,
                         callbacks);
   CameraSettings settings;
   settings.depth_mode = {320, 240, 60};
-  auto answer = std::async(std::launch::async, [&] { return session.apply(settings); });
+  std::promise<void> asks;
+  auto answer = std::async(std::launch::async, [&] {
+    asks.set_value();
+    return session.apply(settings);
+  });
+  asks.get_future().wait();
+  // The camera is still being opened, so that the answer has to wait.
+  EXPECT_EQ(answer.wait_for(std::chrono::milliseconds(200)), std::future_status::timeout);
   session.end();
   ASSERT_EQ(answer.wait_for(kLong), std::future_status::ready);
-  const std::string text = answer.get();
-  EXPECT_TRUE(text.empty() || text == "the driver is being unloaded") << text;
+  EXPECT_EQ(answer.get(), "the driver is being unloaded");
   EXPECT_EQ(session.apply(settings), "the driver is being unloaded");
 }
 

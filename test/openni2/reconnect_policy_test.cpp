@@ -23,15 +23,25 @@ class ReconnectPolicyTest : public testing::Test {
 TEST_F(ReconnectPolicyTest, LooksAtOnceAndThenLessAndLessOften) {
   EXPECT_EQ(wait(), milliseconds(0));
   for (const int expected : {250, 500, 1000, 2000, 4000, 5000, 5000}) {
-    policy_.searchedInVain(now_);
+    policy_.searchedInVain(now_, now_);
     EXPECT_EQ(wait(), milliseconds(expected));
     now_ += milliseconds(expected);
   }
   policy_.arrived(now_);
   EXPECT_EQ(wait(), milliseconds(0));
   policy_.opened(now_);
-  policy_.searchedInVain(now_);
+  now_ += milliseconds(10);
+  policy_.searchedInVain(now_, now_);
   EXPECT_EQ(wait(), milliseconds(250));
+}
+
+/// One that came after the list of cameras was read, and before the search ended.
+TEST_F(ReconnectPolicyTest, ACameraThatComesWhileItIsLookedForIsLookedForAtOnce) {
+  const auto begin = now_;
+  policy_.arrived(now_ + milliseconds(50));
+  now_ += milliseconds(100);
+  policy_.searchedInVain(begin, now_);
+  EXPECT_EQ(wait(), milliseconds(0));
 }
 
 TEST_F(ReconnectPolicyTest, ACameraThatWasWellIsLookedForSoon) {

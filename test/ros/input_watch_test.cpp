@@ -12,7 +12,7 @@ TEST(InputWatch, SilenceBeginsWithTheSubscriptionOrTheLastImage) {
   EXPECT_EQ(watch.problem(14.9), Problem::kNone);
   EXPECT_EQ(watch.problem(15.1), Problem::kSilence);
   watch.sawImage(20.0);
-  watch.sawMatch(20.0);
+  watch.sawMatch();
   EXPECT_EQ(watch.problem(24.9), Problem::kNone);
   EXPECT_EQ(watch.problem(25.1), Problem::kSilence);
 }
@@ -23,9 +23,9 @@ TEST(InputWatch, ImagesWithoutCameraInfo) {
     watch.sawImage(now);
     EXPECT_EQ(watch.problem(now), Problem::kNone) << now;
   }
-  watch.sawImage(15.1);
-  EXPECT_EQ(watch.problem(15.1), Problem::kUnmatched);
-  watch.sawMatch(15.2);
+  watch.sawImage(15.2);  // five seconds after the first
+  EXPECT_EQ(watch.problem(15.2), Problem::kUnmatched);
+  watch.sawMatch();
   EXPECT_EQ(watch.problem(15.2), Problem::kNone);
 }
 
@@ -35,6 +35,17 @@ TEST(InputWatch, TheFirstImageAfterASilenceMayWaitForItsCameraInfo) {
   EXPECT_EQ(watch.problem(100.0), Problem::kNone);
   for (double now = 100.0; now < 105.2; now += 0.1) watch.sawImage(now);
   EXPECT_EQ(watch.problem(105.2), Problem::kUnmatched);
+}
+
+/// Images that are few have their camera_info all the same.
+TEST(InputWatch, ALowRateIsNoProblem) {
+  InputWatch watch(10.0);
+  for (double now = 10.0; now < 60.0; now += 4.9) {
+    watch.sawImage(now);
+    EXPECT_EQ(watch.problem(now + 0.001), Problem::kNone);
+    watch.sawMatch();
+    EXPECT_EQ(watch.problem(now + 4.8), Problem::kNone);
+  }
 }
 
 }  // namespace

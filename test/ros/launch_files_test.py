@@ -83,7 +83,7 @@ class Managers(unittest.TestCase):
         return loads["driver"], loads["plane_detection"], started
 
     def test_a_camera_shares_its_manager_with_the_detection(self):
-        for device_id in ("#1", "virtual://rubbish_bin"):
+        for device_id in ("#1", "virtual://rubbish_bin", "1206120026", "1.5", "true"):
             driver, detection, started = self.managers(device_id)
             self.assertEqual(driver, detection)
             self.assertEqual(started, {driver})

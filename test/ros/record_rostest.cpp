@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <future>
+#include <iterator>
 #include <set>
 
 #include "support/ros_test.h"
@@ -31,11 +33,12 @@ class Record : public testing::Test {
   ~Record() override { fs::remove_all(folder_); }
 
   std::string bag() const { return folder_ / "drive of today.bag"; }
-  static std::future<int> launch(const std::string& bag, const std::string& more = "") {
-    const std::string command = "roslaunch dominant_plane_detection record.launch \"bag:=" + bag +
-                                "\" " + more + " > /dev/null 2>&1";
+  std::future<int> launch(const std::string& bag, const std::string& more = "") const {
+    const std::string command = "roslaunch " DPD_SOURCE "/launch/record.launch \"bag:=" + bag +
+                                "\" " + more + " > \"" + log() + "\" 2>&1";
     return std::async(std::launch::async, [command] { return std::system(command.c_str()); });
   }
+  std::string log() const { return folder_ / "roslaunch.log"; }
   static bool ended(std::future<int>& launched) {
     return launched.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   }
@@ -104,7 +107,10 @@ TEST_F(Record, WritesRegisteredDepthWhereThatIsWhatThereIs) {
 
 TEST_F(Record, EndsWhereNothingCanBeWritten) {
   auto launched = launch("/no such folder/drive.bag");
-  EXPECT_TRUE(spinUntil([&] { return ended(launched); }, 60.0));
+  ASSERT_TRUE(spinUntil([&] { return ended(launched); }, 60.0));
+  std::ifstream file(log());
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_NE(text.find("REQUIRED process [recorder"), std::string::npos) << text;
 }
 
 }  // namespace
