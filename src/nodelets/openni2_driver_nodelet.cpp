@@ -8,7 +8,7 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr double kSoon = 0.01;   // [s] after onInit, when the queue is served
+constexpr double kSoon = 0.01;   // [s] after onInit
 constexpr double kPeriod = 1.0;  // [s] of diagnostics
 
 /// What is read once, at the start.
@@ -58,22 +58,23 @@ OpenNI2DriverNodelet::~OpenNI2DriverNodelet() {
 }
 
 void OpenNI2DriverNodelet::onInit() {
-  timer_ = getNodeHandle().createWallTimer(ros::WallDuration(kSoon),
-                                           [this](const ros::WallTimerEvent&) { onTimer(); });
+  try {
+    start();
+  } catch (const std::exception& error) {
+    NODELET_ERROR_STREAM("Could not start: " << error.what());
+    return;
+  }
+  started_ = true;
+  timer_ = getNodeHandle().createWallTimer(
+      ros::WallDuration(kSoon), [this](const ros::WallTimerEvent&) { onTimer(); }, false, false);
+  timer_.start();
 }
 
 void OpenNI2DriverNodelet::onTimer() {
-  try {
-    if (!session_) {
-      timer_.setPeriod(ros::WallDuration(kPeriod));
-      start();
-    }
-    // Somebody may have come before there was anything to call.
-    followListeners();
-    diagnostics_->report(session_->status());
-  } catch (const std::exception& error) {
-    NODELET_ERROR_STREAM_THROTTLE(60.0, "Could not start: " << error.what());
-  }
+  timer_.setPeriod(ros::WallDuration(kPeriod));
+  // Somebody may have come during the start.
+  followListeners();
+  diagnostics_->report(session_->status());
 }
 
 void OpenNI2DriverNodelet::start() {
@@ -90,7 +91,6 @@ void OpenNI2DriverNodelet::start() {
   callbacks.acceleration = [this](const openni2_plugin::Acceleration& acceleration) {
     onAcceleration(acceleration);
   };
-  serial_server_.shutdown();  // of an attempt that failed
   serial_server_ =
       getNodeHandle().advertiseService("get_serial", &OpenNI2DriverNodelet::onGetSerial, this);
   const DriverParameters now = parameters();
@@ -111,7 +111,7 @@ void OpenNI2DriverNodelet::offerParameters() {
 }
 
 void OpenNI2DriverNodelet::followListeners() {
-  if (!session_) return;  // `start` did not get so far
+  if (!started_) return;
   for (const StreamKind kind : kAllStreams) {
     const bool wanted = outputs_.wants(kind);
     diagnostics_->setWanted(kind, wanted);
@@ -181,7 +181,7 @@ void OpenNI2DriverNodelet::onReconfigure(OpenNI2DriverConfig& config) {
 
 bool OpenNI2DriverNodelet::onGetSerial(GetSerial::Request& /*request*/,
                                        GetSerial::Response& response) {
-  if (session_) response.serial = session_->status().camera.serial;
+  if (started_) response.serial = session_->status().camera.serial;
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include <ros/callback_queue.h>
 #include <ros/spinner.h>
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 
@@ -22,11 +23,12 @@ namespace dominant_plane_detection {
 /// An OpenNI2 camera as a nodelet: depth, colour and infrared images in the memory that the
 /// camera's driver wrote; streams run while somebody listens.
 ///
-/// Which thread calls what: the nodelet's own callback queue the timer (which also starts it),
-/// listeners that come and go, and get_serial, one after the other; a thread of each stream
-/// `onFrame`; the session's thread `onOpened` and `onAcceleration`; a thread for parameters
-/// `onReconfigure`, which waits for the camera. `onInit` and the destructor are called in the
-/// manager's threads, before the queue's first callback and after its last.
+/// Which thread calls what: the nodelet's own callback queue the timer, listeners that come and go,
+/// and get_serial, one after the other; a thread of each stream `onFrame`; the session's thread
+/// `onOpened` and `onAcceleration`; a thread for parameters `onReconfigure`, which waits for the
+/// camera. The manager's threads call `onInit`, one nodelet after the other, as loading transports
+/// wants it, while callbacks already come and find that nothing has started; and the destructor,
+/// after the queue's last callback.
 class OpenNI2DriverNodelet : public nodelet::Nodelet {
  public:
   ~OpenNI2DriverNodelet() override;
@@ -45,6 +47,8 @@ class OpenNI2DriverNodelet : public nodelet::Nodelet {
   bool onGetSerial(GetSerial::Request& request, GetSerial::Response& response);
   DriverParameters parameters() const;
   void setParameters(const DriverParameters& parameters);
+
+  std::atomic<bool> started_{false};  ///< what follows is complete
 
   mutable std::mutex mutex_;  ///< of what follows; never held while anything else is called
   DriverParameters parameters_;

@@ -6,7 +6,7 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr double kSoon = 0.01;   // [s] after onInit, when the queue is served
+constexpr double kSoon = 0.01;   // [s] after onInit
 constexpr double kPeriod = 1.0;  // [s] of diagnostics
 
 InputKind readInputKind(const ros::NodeHandle& node) {
@@ -22,23 +22,24 @@ InputKind readInputKind(const ros::NodeHandle& node) {
 }  // namespace
 
 void PlaneDetectionNodelet::onInit() {
-  timer_ = getNodeHandle().createWallTimer(ros::WallDuration(kSoon),
-                                           [this](const ros::WallTimerEvent&) { onTimer(); });
+  try {
+    start();
+  } catch (const std::exception& error) {
+    NODELET_ERROR_STREAM("Could not start: " << error.what());
+    return;
+  }
+  started_ = true;
+  timer_ = getNodeHandle().createWallTimer(
+      ros::WallDuration(kSoon), [this](const ros::WallTimerEvent&) { onTimer(); }, false, false);
+  timer_.start();
 }
 
 void PlaneDetectionNodelet::onTimer() {
-  try {
-    if (!diagnostics_) {
-      timer_.setPeriod(ros::WallDuration(kPeriod));
-      start();
-    }
-    // Somebody may have come before there was anything to call.
-    followListeners();
-    diagnostics_->report(
-        {inputs_->subscribed(), inputs_->counts(), inputs_->problem(), subscription_error_});
-  } catch (const std::exception& error) {
-    NODELET_ERROR_STREAM_THROTTLE(60.0, "Could not start: " << error.what());
-  }
+  timer_.setPeriod(ros::WallDuration(kPeriod));
+  // Somebody may have come during the start.
+  followListeners();
+  diagnostics_->report(
+      {inputs_->subscribed(), inputs_->counts(), inputs_->problem(), subscription_error_});
 }
 
 void PlaneDetectionNodelet::start() {
@@ -46,9 +47,6 @@ void PlaneDetectionNodelet::start() {
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   detector_ = DominantPlaneDetector(loadParameters<Parameters, PlaneDetectionConfig>(
       private_node, {"input", "rectified", "image_transport"}));
-  // An attempt that failed may have left some of these, and services are offered once at a time.
-  reconfigure_.reset();
-  mount_service_.reset();
   inputs_ = std::make_unique<DetectionInputs>(
       node, private_node, readInputKind(private_node), private_node.param("rectified", false),
       [this](const DetectionInputs::Frame& frame) { onFrame(frame); });
@@ -63,7 +61,7 @@ void PlaneDetectionNodelet::start() {
 }
 
 void PlaneDetectionNodelet::followListeners() {
-  if (!diagnostics_) return;  // `start` did not get so far
+  if (!started_) return;
   std::string error;
   try {
     trySubscriptions();

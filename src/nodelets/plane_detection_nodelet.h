@@ -4,6 +4,7 @@
 #include <dynamic_reconfigure/server.h>
 #include <nodelet/nodelet.h>
 
+#include <atomic>
 #include <memory>
 #include <string>
 
@@ -21,9 +22,10 @@ namespace dominant_plane_detection {
 /// listens.
 ///
 /// Everything here happens in the thread of the nodelet's own callback queue, one callback after
-/// the other, so that there is no lock: images, listeners that come and go, parameters, the timer,
-/// even the start. `onInit` and the destructor are called in the manager's threads, before the
-/// first callback and after the last. A call of `calibrate_mount` waits in a thread of its own (see
+/// the other, so that there is no lock: images, listeners that come and go, parameters, the timer.
+/// The manager's threads call `onInit`, one nodelet after the other, as loading transports wants
+/// it, while callbacks already come and find that nothing has started; and the destructor, after
+/// the last callback. A call of `calibrate_mount` waits in a thread of its own (see
 /// `MountService`).
 class PlaneDetectionNodelet : public nodelet::Nodelet {
  private:
@@ -35,6 +37,7 @@ class PlaneDetectionNodelet : public nodelet::Nodelet {
   void onFrame(const DetectionInputs::Frame& frame);
   void onReconfigure(PlaneDetectionConfig& config);
 
+  std::atomic<bool> started_{false};  ///< what follows is complete
   DominantPlaneDetector detector_;
   DetectionOutputs outputs_;
   std::unique_ptr<OverlayOutput> overlay_;
