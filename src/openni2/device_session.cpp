@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "openni2/camera_choice.h"
 #include "openni2/lasting_threads.h"

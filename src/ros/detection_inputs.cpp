@@ -5,6 +5,8 @@
 #include <ros/console.h>
 #include <ros/master.h>
 
+#include <utility>
+
 #include "ros/camera_conversion.h"
 #include "ros/queued_call.h"
 #include "ros/topic_names.h"
@@ -62,7 +64,7 @@ void DetectionInputs::unsubscribe() {
   images_.shutdown();
   infos_.shutdown();
   points_.shutdown();
-  node_.getCallbackQueue()->removeByID(reinterpret_cast<std::uint64_t>(this));
+  removeCalls(*node_.getCallbackQueue(), this);
   handing_on_ = false;
   newest_pair_.reset();
   newest_cloud_.reset();

@@ -46,7 +46,7 @@ MountService::~MountService() {
   changed_.notify_all();
   spinner_.stop();
   server_.shutdown();
-  node_queue_.removeByID(reinterpret_cast<std::uint64_t>(this));
+  removeCalls(node_queue_, this);
 }
 
 void MountService::tellWishChanged() { callLater(node_queue_, this, wish_changed_); }

@@ -3,6 +3,7 @@
 #include <ros/callback_queue_interface.h>
 
 #include <boost/make_shared.hpp>
+#include <cstdint>
 #include <functional>
 #include <utility>
 
@@ -10,8 +11,8 @@ namespace dominant_plane_detection {
 
 /// Calls a function in the thread of a callback queue, behind what waits there already. From any
 /// thread; never waits.
-/// @param owner whoever removes the call again, by `queue.removeByID`, before `function` may not be
-/// called any more.
+/// @param owner whoever takes the call back, by `removeCalls`, before `function` may not be called
+/// any more.
 inline void callLater(ros::CallbackQueueInterface& queue, const void* owner,
                       std::function<void()> function) {
   struct Call : ros::CallbackInterface {
@@ -24,6 +25,11 @@ inline void callLater(ros::CallbackQueueInterface& queue, const void* owner,
   };
   queue.addCallback(boost::make_shared<Call>(std::move(function)),
                     reinterpret_cast<std::uint64_t>(owner));
+}
+
+/// Takes back what an owner has asked for; waits for one of its calls that runs in another thread.
+inline void removeCalls(ros::CallbackQueueInterface& queue, const void* owner) {
+  queue.removeByID(reinterpret_cast<std::uint64_t>(owner));
 }
 
 }  // namespace dominant_plane_detection
