@@ -147,6 +147,16 @@ TEST(ClockFilter, FramesOfOneExposureGetOneStamp) {
   }
 }
 
+/// Each stream has a thread of its own, and the later arrival may be looked at first: it knows less
+/// of the clock, and has given the exposure its stamp all the same.
+TEST(ClockFilter, TheOrderInWhichStreamsAreLookedAtIsNoMatter) {
+  ClockFilter filter;
+  const double depth = filter.stamp(0, 1000000, 100.050);
+  EXPECT_EQ(filter.stamp(1, 1000000, 100.004), depth);
+  // The next exposure has learned from both.
+  EXPECT_NEAR(filter.stamp(0, 1100000, 100.150), 100.104, 1e-3);
+}
+
 /// The last colour images of a recording come when depth has begun anew: they are no reason to
 /// doubt the new beginning.
 TEST(ClockFilter, StreamsBeginAnewOneAfterTheOther) {
