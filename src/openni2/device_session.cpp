@@ -18,8 +18,11 @@ constexpr const char* kUnloading = "the driver is being unloaded";
 }  // namespace
 
 DeviceSession::DeviceSession(std::string device_id, const CameraSettings& settings, double patience,
-                             Callbacks callbacks)
-    : device_id_(std::move(device_id)), callbacks_(std::move(callbacks)), requested_(settings) {
+                             Callbacks callbacks, const ReconnectPolicy& reconnect)
+    : device_id_(std::move(device_id)),
+      callbacks_(std::move(callbacks)),
+      requested_(settings),
+      reconnect_(reconnect) {
   demand_.patience = patience;
   status_.problem = "looking for " + device_id_;
   running_ = runInLastingThread([this] { run(); });

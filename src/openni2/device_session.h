@@ -43,8 +43,9 @@ class DeviceSession {
 
   /// @param device_id see `chooseCamera`.
   /// @param patience [s] without a frame until a stream is started anew.
+  /// @param reconnect when a camera is looked for that did not come by itself.
   DeviceSession(std::string device_id, const CameraSettings& settings, double patience,
-                Callbacks callbacks);
+                Callbacks callbacks, const ReconnectPolicy& reconnect = ReconnectPolicy());
   ~DeviceSession();
   DeviceSession(const DeviceSession&) = delete;
   DeviceSession& operator=(const DeviceSession&) = delete;

@@ -188,7 +188,11 @@ void SensorStream::deliverFrames() {
     if (ending_) return;
     arrived_ = false;
     lock.unlock();
-    deliver();
+    try {
+      deliver();
+    } catch (const std::exception& error) {
+      ROS_ERROR_STREAM_THROTTLE(5.0, "Lost a " << toString(kind_) << " image: " << error.what());
+    }
     lock.lock();
   }
 }

@@ -82,9 +82,13 @@ class OniSource : public FrameSource {
   }
 
   DepthView view() const {
-    DepthView view = viewOf(frame_);
-    view.metres_per_unit = metres_per_unit_;
-    return view;
+    try {
+      DepthView view = viewOf(frame_);
+      view.metres_per_unit = metres_per_unit_;
+      return view;
+    } catch (const std::runtime_error& error) {
+      throw UnreadableFrame(file_ + ": " + error.what());
+    }
   }
 
   /// What the user gave, or else a pinhole with the recorded field of view.

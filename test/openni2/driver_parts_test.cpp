@@ -141,6 +141,21 @@ TEST_F(DepthCorrectorTest, RawDisparityBecomesMillimetres) {
          {table[0], table[1000], table[2000], 0, table[4], table[10]});
 }
 
+TEST_F(DepthCorrectorTest, ImagesThatAreKeptHaveABound) {
+  DepthCorrector corrector;
+  corrector.set(0.0, 1.1);
+  image_->width = 5000;
+  image_->height = 1000;
+  image_->step = 10000;
+  image_->data.resize(10'000'000);
+  std::vector<sensor_msgs::ImagePtr> kept;
+  while (kept.size() < 41) kept.push_back(corrector.correct(image_, false));  // 410 MB
+  EXPECT_THROW(corrector.correct(image_, false), std::runtime_error);
+  kept.pop_back();
+  kept.pop_back();
+  EXPECT_TRUE(corrector.correct(image_, false));
+}
+
 TEST(DriverParametersTest, RefusesWhatIsNone) {
   DriverParameters parameters;
   setParameter(parameters, "depth_mode", "320x240@60");

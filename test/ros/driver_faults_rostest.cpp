@@ -9,12 +9,21 @@
 #include <filesystem>
 #include <thread>
 
+#include "support/diagnostics.h"
 #include "support/driver_test.h"
 #include "support/oni_recording.h"
 #include "support/ros_test.h"
 
 namespace dominant_plane_detection {
 namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 class DriverFault : public testing::Test {
  protected:
@@ -25,6 +34,7 @@ class DriverFault : public testing::Test {
 
   ros::NodeHandle node_{"/camera"};
   Manager manager_;
+  Diagnostics diagnostics_{node_};
 };
 
 TEST_F(DriverFault, ComesBackAfterItWasUnplugged) {
@@ -48,6 +58,8 @@ TEST_F(DriverFault, ComesBackAfterItWasUnplugged) {
   ASSERT_TRUE(spinUntil([&] { return arrivals.size() >= before + 30; }));
   EXPECT_EQ(serial(), "U1");
   EXPECT_TRUE(ascending);
+  EXPECT_TRUE(diagnostics_.waitFor("camera/driver: camera", DiagnosticStatus::OK, "streaming"));
+  EXPECT_EQ(diagnostics_.value("camera/driver: camera", "times opened"), "2");
   double longest = 0.0;
   for (std::size_t i = 1; i < arrivals.size(); ++i) {
     longest = std::max(longest, (arrivals[i] - arrivals[i - 1]).toSec());
@@ -83,39 +95,55 @@ TEST_F(DriverFault, AStalledStreamIsStartedAnew) {
     ASSERT_TRUE(spinUntil([&] { return images.size() >= before + 10; }));
   }
   EXPECT_EQ(serial(), "W1");
+  EXPECT_TRUE(spinUntil([&] {
+    return diagnostics_.value("camera/driver: depth", "times silent and started anew") == "2";
+  })) << "the stream alone, each time";
+  EXPECT_EQ(diagnostics_.value("camera/driver: camera", "times opened"), "1");
 }
 
+/// A clock that goes a fiftieth too fast is 80 ms ahead after the test. Real ones drift too little
+/// to show in seconds; clock_filter_test has them for twenty minutes.
 TEST_F(DriverFault, StampsFollowAClockThatDrifts) {
-  const std::string uri = "virtual://rubbish_bin?serial=D1&drift=75e-6&noise=0";
+  const std::string uri = "virtual://rubbish_bin?serial=D1&drift=0.02&noise=0";
   ASSERT_TRUE(manager_.loadDriver("/camera", uri, {{"depth_mode", "320x240@60"}}));
   Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
-  const auto worst = [&] {
-    const auto records = Probe(uri).records();
-    std::vector<double> errors;
-    for (const auto& image : images.messages()) {
-      const auto record = recordAt(records, image->data.data());
-      if (!record) continue;
-      const double exposed = 1e-9 * static_cast<double>(record->exposed);
-      errors.push_back(std::abs(image->header.stamp.toSec() - exposed));
-    }
-    std::sort(errors.begin(), errors.end());
-    return errors.empty() ? NAN : errors[errors.size() * 9 / 10];
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= 240; }));
+  const auto records = Probe(uri).records();
+  const auto exposed = [&](const sensor_msgs::Image& image) -> std::optional<double> {
+    const auto record = recordAt(records, image.data.data());
+    return record ? std::make_optional(1e-9 * static_cast<double>(record->exposed)) : std::nullopt;
   };
-  ASSERT_TRUE(spinUntil([&] { return images.size() >= 120; }));
-  EXPECT_LT(worst(), 0.005);
+  std::vector<double> errors;
+  for (std::size_t i = 180; i < 240; ++i) {
+    const sensor_msgs::Image& image = *images.messages()[i];
+    if (const auto truth = exposed(image)) errors.push_back(image.header.stamp.toSec() - *truth);
+  }
+  ASSERT_GE(errors.size(), 30U) << "images whose exposure is known";
+  std::cout << "median error of the stamps: " << 1e3 * median(errors) << " ms\n";
+  EXPECT_NEAR(median(errors), 0.0, 0.01);
   for (std::size_t i = 1; i < images.size(); ++i) {
     ASSERT_GT(images.messages()[i]->header.stamp, images.messages()[i - 1]->header.stamp);
   }
 }
 
+/// It says which camera it waits for and which there are, publishes nothing, and can be unloaded.
 TEST_F(DriverFault, AWrongDeviceIdWaitsAndUnloads) {
-  for (const std::string id : {"no-such-serial", "#7", "virtual://no_such_scene", "/no/file.oni"}) {
+  const std::map<std::string, std::string> expected = {
+      {"no-such-serial", "no camera fits 'no-such-serial'"},
+      {"#77", "there is no camera #77"},
+      {"virtual://no_such_scene", "no_such_scene"},
+      {"/no/file.oni", "there is no file /no/file.oni"}};
+  Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
+  for (const auto& [id, problem] : expected) {
     ASSERT_TRUE(manager_.loadDriver("/camera", id)) << id;
-    Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
-    EXPECT_TRUE(spinUntil([&] { return images.connected(); })) << id;
+    EXPECT_TRUE(diagnostics_.waitFor("camera/driver: camera", DiagnosticStatus::ERROR, problem))
+        << diagnostics_.message("camera/driver: camera");
+    EXPECT_TRUE(images.connected()) << id;
     EXPECT_EQ(serial(), "");
     EXPECT_TRUE(manager_.unload("/camera/driver")) << id;
+    EXPECT_TRUE(spinUntil([&] { return !images.connected(); })) << id;
   }
+  EXPECT_EQ(images.size(), 0U);
 }
 
 TEST_F(DriverFault, WaitsForACameraThatIsPluggedInLater) {
