@@ -19,6 +19,10 @@ CameraDevice::CameraDevice(std::shared_ptr<OpenNi2Runtime> runtime, const std::s
 }
 
 CameraDevice::~CameraDevice() {
+  for (const auto& stream : streams_) {
+    if (stream) stream->stop();
+  }
+  if (isRecording()) letPlayerRest();
   for (auto& stream : streams_) stream.reset();
   runtime_->close(std::move(device_));
 }

@@ -4,8 +4,10 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <stdexcept>
+#include <thread>
 
 namespace dominant_plane_detection {
 namespace {
@@ -29,6 +31,8 @@ void requireOurLibrary() {
 }
 
 }  // namespace
+
+void letPlayerRest() { std::this_thread::sleep_for(std::chrono::milliseconds(100)); }
 
 std::string lastOpenNi2Error() {
   std::string text = openni::OpenNI::getExtendedError();

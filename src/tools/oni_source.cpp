@@ -43,6 +43,8 @@ class OniSource : public FrameSource {
   }
   ~OniSource() override {
     frame_.release();
+    stream_.stop();
+    letPlayerRest();
     stream_.destroy();
     if (device_) runtime_->close(std::move(device_));
   }

@@ -77,6 +77,8 @@ inline std::vector<std::vector<std::uint16_t>> readOni(const std::string& file) 
   std::vector<std::vector<std::uint16_t>> pixels;
   const int frames = device->getPlaybackControl()->getNumberOfFrames(stream);
   for (int i = 0; i < frames; ++i) pixels.push_back(readDepth(stream));
+  stream.stop();
+  letPlayerRest();
   stream.destroy();
   runtime->close(std::move(device));
   return pixels;

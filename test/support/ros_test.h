@@ -4,6 +4,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <string>
@@ -11,10 +12,17 @@
 
 namespace dominant_plane_detection {
 
+/// @return [-] by how much longer than usual to wait, from the environment's DPD_PATIENCE: programs
+/// with a sanitizer are slow.
+inline double patience() {
+  const char* factor = std::getenv("DPD_PATIENCE");
+  return factor == nullptr ? 1.0 : std::atof(factor);
+}
+
 /// Handles callbacks until a condition holds.
 /// @return false when it still does not after `seconds` of wall time.
 inline bool spinUntil(const std::function<bool()>& condition, double seconds = 20.0) {
-  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(seconds);
+  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(patience() * seconds);
   while (!condition()) {
     if (ros::SteadyTime::now() > end || !ros::ok()) return false;
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));

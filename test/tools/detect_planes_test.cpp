@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/long_form.h"
 #include "support/oni_recording.h"
 
 namespace dominant_plane_detection {
@@ -134,6 +135,15 @@ TEST_F(DetectPlanes, OniRecording) {
   const Outcome broken = detect(path("broken.oni"));
   EXPECT_EQ(broken.status, 1);
   EXPECT_NE(broken.text.find("broken.oni"), std::string::npos) << broken.text;
+}
+
+/// OpenNI2's player used to crash once in 150 times when its stream was destroyed.
+TEST_F(DetectPlanes, OniRecordingIsClosedWithoutACrash) {
+  recordOni("virtual://rubbish_bin?serial=CLOSE&noise=0", path("close.oni"), 3);
+  for (int i = 0; i < longForm(3, 600); ++i) {
+    const Outcome outcome = detect(path("close.oni"));
+    ASSERT_EQ(outcome.status, 0) << "run " << i << ": " << outcome.text;
+  }
 }
 
 /// One bit of the frames' size: OpenNI2 gives less than the images that it speaks of.
