@@ -42,7 +42,7 @@ void play(const Recording& recording, const ros::Publisher& images, const ros::P
   const ros::SteadyTime start = ros::SteadyTime::now();
   const ros::Time first = recording.images.front()->header.stamp;
   for (std::size_t i = 0; i < recording.images.size(); ++i) {
-    const double due = (recording.images[i]->header.stamp - first).toSec();
+    const double due = patience() * (recording.images[i]->header.stamp - first).toSec();
     spinUntil([&] { return (ros::SteadyTime::now() - start).toSec() >= due; });
     images.publish(recording.images[i]);
     infos.publish(recording.infos[i]);
