@@ -78,6 +78,7 @@ void OpenNI2DriverNodelet::onTimer() {
 }
 
 void OpenNI2DriverNodelet::start() {
+  name_ = std::make_unique<NameClaim>(getName());
   const ros::NodeHandle& node = getNodeHandle();
   const ros::NodeHandle& private_node = getPrivateNodeHandle();
   corrector_ = std::make_unique<DepthCorrector>(readCalibration(private_node));

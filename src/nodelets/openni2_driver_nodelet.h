@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 
+#include "nodelets/name_claim.h"
 #include "openni2/clock_filter.h"
 #include "openni2/device_session.h"
 #include "ros/depth_corrector.h"
@@ -48,6 +49,7 @@ class OpenNI2DriverNodelet : public nodelet::Nodelet {
   DriverParameters parameters() const;
   void setParameters(const DriverParameters& parameters);
 
+  std::unique_ptr<NameClaim> name_;   ///< first, so that it is let go of last
   std::atomic<bool> started_{false};  ///< what follows is complete
 
   mutable std::mutex mutex_;  ///< of what follows; never held while anything else is called

@@ -43,6 +43,7 @@ void PlaneDetectionNodelet::onTimer() {
 }
 
 void PlaneDetectionNodelet::start() {
+  name_ = std::make_unique<NameClaim>(getName());
   const ros::NodeHandle& node = getNodeHandle();
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   detector_ = DominantPlaneDetector(loadParameters<Parameters, PlaneDetectionConfig>(

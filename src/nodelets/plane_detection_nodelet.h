@@ -9,6 +9,7 @@
 #include <string>
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
+#include "nodelets/name_claim.h"
 #include "ros/detection_diagnostics.h"
 #include "ros/detection_inputs.h"
 #include "ros/detection_outputs.h"
@@ -37,6 +38,7 @@ class PlaneDetectionNodelet : public nodelet::Nodelet {
   void onFrame(const DetectionInputs::Frame& frame);
   void onReconfigure(PlaneDetectionConfig& config);
 
+  std::unique_ptr<NameClaim> name_;   ///< first, so that it is let go of last
   std::atomic<bool> started_{false};  ///< what follows is complete
   DominantPlaneDetector detector_;
   DetectionOutputs outputs_;
