@@ -1,0 +1,110 @@
+#include "support/floor_objects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "dominant_plane_detection/noise_model.h"
+#include "support/scoring.h"
+#include "synthetic/renderer.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+constexpr int kWindow = 41;        // [px]
+constexpr double kShare = 0.7;     // [-] of floor in the window
+constexpr double kSigmas = 6.0;    // [-]
+constexpr double kReadings = 0.5;  // [-] of an object's pixels
+
+Eigen::Vector3d rayAt(const ReferenceSet& set, int u, int v) {
+  return {(u - set.camera.cx) / set.camera.fx, (v - set.camera.cy) / set.camera.fy, 1.0};
+}
+
+Eigen::Isometry3d worldFromCamera(const ReferenceImage& image) {
+  const Eigen::Vector3d up = image.up.normalized();
+  const Eigen::Vector3d ahead = (Eigen::Vector3d::UnitZ() - up.z() * up).normalized();
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear().row(0) = ahead;
+  pose.linear().row(1) = up.cross(ahead);
+  pose.linear().row(2) = up;
+  pose.translation().z() = image.height;
+  return pose;
+}
+
+}  // namespace
+
+cv::Mat floorMask(const ReferenceSet& set, const ReferenceImage& image) {
+  cv::Mat share;
+  cv::Mat ground;
+  image.ground.convertTo(ground, CV_32F, 1.0 / 255.0);
+  cv::blur(ground, share, {kWindow, kWindow});
+  cv::Mat floor = cv::Mat::zeros(image.ground.size(), CV_8U);
+  const DepthView view = set.view(image);
+  for (int v = 0; v < floor.rows; ++v) {
+    for (int u = 0; u < floor.cols; ++u) {
+      if (share.at<float>(v, u) < kShare) continue;
+      const auto z = static_cast<double>(metresAt(view, u, v));
+      const double height = z * image.up.dot(rayAt(set, u, v)) + image.height;
+      const bool near = std::abs(height) < kSigmas * NoiseModel{}.sigma(z);
+      if (z == 0.0 || near) floor.at<std::uint8_t>(v, u) = 255;
+    }
+  }
+  return floor;
+}
+
+FloorObjects::FloorObjects(const ReferenceSet& set, const ReferenceImage& image)
+    : set_(set),
+      image_(image),
+      world_from_camera_(worldFromCamera(image)),
+      floor_(floorMask(set, image)) {}
+
+double FloorObjects::planeDepth(int u, int v) const {
+  const double down = -image_.up.dot(rayAt(set_, u, v));
+  return down > 0.0 ? image_.height / down : 0.0;
+}
+
+Eigen::Vector3d FloorObjects::planePoint(int u, int v) const {
+  return world_from_camera_ * (planeDepth(u, v) * rayAt(set_, u, v));
+}
+
+std::optional<StoodIn> FloorObjects::stand(TriangleMesh object, int u, int v) const {
+  if (planeDepth(u, v) <= 0.0 || floor_.at<std::uint8_t>(v, u) != 255) return std::nullopt;
+  object.transform(Eigen::Isometry3d(Eigen::Translation3d(planePoint(u, v))));
+  Scene scene;
+  scene.camera = set_.camera;
+  scene.objects.emplace_back();
+  scene.objects.back().mesh = object;
+  const Rendering rendering = Renderer(scene).render(world_from_camera_, {});
+
+  StoodIn result;
+  result.depth = image_.depth.clone();
+  const DepthView view = set_.view(image_);
+  std::vector<double> depths;
+  std::size_t seen = 0;
+  for (int y = 0; y < rendering.height; ++y) {
+    for (int x = 0; x < rendering.width; ++x) {
+      const int index = y * rendering.width + x;
+      const auto object_z = static_cast<double>(rendering.depth[static_cast<std::size_t>(index)]);
+      if (object_z == 0.0) continue;
+      const bool border = x == 0 || y == 0 || x + 1 == rendering.width || y + 1 == rendering.height;
+      if (border || floor_.at<std::uint8_t>(y, x) != 255) return std::nullopt;
+      ++seen;
+      const auto reading = static_cast<double>(metresAt(view, x, y));
+      if (reading == 0.0) continue;
+      const double plane_z = planeDepth(x, y);
+      const double error = (reading - plane_z) * std::pow(object_z / plane_z, 2);
+      const double units = (object_z + error) / static_cast<double>(set_.metres_per_unit);
+      result.depth.at<std::uint16_t>(y, x) =
+          static_cast<std::uint16_t>(std::clamp(std::lround(units), 1L, 65535L));
+      result.pixels.push_back(index);
+      depths.push_back(object_z);
+    }
+  }
+  if (static_cast<double>(depths.size()) <= kReadings * static_cast<double>(seen)) {
+    return std::nullopt;
+  }
+  result.distance = quantile(depths, 0.5);
+  return result;
+}
+
+}  // namespace dominant_plane_detection
