@@ -23,39 +23,50 @@ std::string frameName(std::uint64_t microseconds) {
   return name;
 }
 
+/// An open recording. It is closed in the order that OpenNI2's player bears, whatever happened.
+struct Playback {
+  Playback() = default;
+  Playback(const Playback&) = delete;
+  Playback& operator=(const Playback&) = delete;
+  ~Playback() {
+    frame.release();
+    stream.stop();
+    letPlayerRest();
+    stream.destroy();
+    if (device) runtime->close(std::move(device));
+  }
+
+  std::shared_ptr<OpenNi2Runtime> runtime = OpenNi2Runtime::instance();
+  std::unique_ptr<openni::Device> device;
+  openni::VideoStream stream;
+  openni::VideoFrameRef frame;  ///< memory of the last frame
+};
+
 /// The depth frames of an .oni file, read as fast as they are asked for.
 class OniSource : public FrameSource {
  public:
   OniSource(const std::string& file, const SourceOptions& options)
-      : file_(file), camera_(options.camera), runtime_(OpenNi2Runtime::instance()) {
-    device_ = runtime_->open(std::filesystem::absolute(file).string());
-    openni::PlaybackControl* playback = device_->getPlaybackControl();
+      : file_(file), camera_(options.camera) {
+    recording_.device = recording_.runtime->open(std::filesystem::absolute(file).string());
+    openni::PlaybackControl* playback = recording_.device->getPlaybackControl();
     if (playback == nullptr) throw std::runtime_error("this is no recording");
     playback->setRepeatEnabled(false);
     playback->setSpeed(-1.0F);  // each frame waits to be read
-    if (!device_->hasSensor(openni::SENSOR_DEPTH) ||
-        stream_.create(*device_, openni::SENSOR_DEPTH) != openni::STATUS_OK) {
+    if (!recording_.device->hasSensor(openni::SENSOR_DEPTH) ||
+        recording_.stream.create(*recording_.device, openni::SENSOR_DEPTH) != openni::STATUS_OK) {
       throw std::runtime_error("there is no depth stream in it");
     }
-    frames_ = static_cast<std::size_t>(std::max(playback->getNumberOfFrames(stream_), 0));
+    frames_ = static_cast<std::size_t>(std::max(playback->getNumberOfFrames(recording_.stream), 0));
     readFormat(options.raw_disparity);
-    if (stream_.start() != openni::STATUS_OK) throw std::runtime_error(lastOpenNi2Error());
+    if (recording_.stream.start() != openni::STATUS_OK)
+      throw std::runtime_error(lastOpenNi2Error());
   }
-  ~OniSource() override {
-    frame_.release();
-    stream_.stop();
-    letPlayerRest();
-    stream_.destroy();
-    if (device_) runtime_->close(std::move(device_));
-  }
-  OniSource(const OniSource&) = delete;
-  OniSource& operator=(const OniSource&) = delete;
 
   std::size_t size() const override { return frames_; }
 
   std::optional<Frame> next() override {
     if (read_ >= frames_) return std::nullopt;
-    if (!readFrame(stream_, kEnd, frame_)) {
+    if (!readFrame(recording_.stream, kEnd, recording_.frame)) {
       const std::size_t missing = frames_ - read_;
       read_ = frames_;
       throw UnreadableFrame(file_ + ": expected " + std::to_string(frames_) + " images, the last " +
@@ -63,7 +74,7 @@ class OniSource : public FrameSource {
     }
     ++read_;
     Frame frame;
-    frame.name = frameName(frame_.getTimestamp());
+    frame.name = frameName(recording_.frame.getTimestamp());
     frame.depth = view();
     frame.camera = camera();
     return frame;
@@ -71,7 +82,7 @@ class OniSource : public FrameSource {
 
  private:
   void readFormat(bool raw) {
-    const auto format = stream_.getVideoMode().getPixelFormat();
+    const auto format = recording_.stream.getVideoMode().getPixelFormat();
     const bool is_raw = format == openni::PIXEL_FORMAT_SHIFT_9_2;
     if (raw ? is_raw : format == openni::PIXEL_FORMAT_DEPTH_1_MM) return;
     if (!raw && format == openni::PIXEL_FORMAT_DEPTH_100_UM) {
@@ -85,7 +96,7 @@ class OniSource : public FrameSource {
 
   DepthView view() const {
     try {
-      DepthView view = viewOf(frame_);
+      DepthView view = viewOf(recording_.frame);
       view.metres_per_unit = metres_per_unit_;
       return view;
     } catch (const std::runtime_error& error) {
@@ -97,11 +108,11 @@ class OniSource : public FrameSource {
   CameraModel camera() const {
     CameraModel model = camera_.value_or(CameraModel());
     if (model.width == 0) {
-      model.width = frame_.getWidth();
-      model.height = frame_.getHeight();
+      model.width = recording_.frame.getWidth();
+      model.height = recording_.frame.getHeight();
     }
     if (camera_) return model;
-    const double fov = static_cast<double>(stream_.getHorizontalFieldOfView());
+    const double fov = static_cast<double>(recording_.stream.getHorizontalFieldOfView());
     if (!(0.0 < fov && fov < 3.1)) {
       throw UnreadableFrame(file_ +
                             ": it does not tell the camera's field of view, give --camera "
@@ -115,10 +126,7 @@ class OniSource : public FrameSource {
 
   std::string file_;
   std::optional<CameraModel> camera_;
-  std::shared_ptr<OpenNi2Runtime> runtime_;
-  std::unique_ptr<openni::Device> device_;
-  openni::VideoStream stream_;
-  openni::VideoFrameRef frame_;  ///< memory of the last frame
+  Playback recording_;
   float metres_per_unit_ = kMillimetre;
   std::size_t frames_ = 0;
   std::size_t read_ = 0;
