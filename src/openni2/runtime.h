@@ -73,8 +73,8 @@ std::string serialNumber(const openni::Device& device);
 
 /// To be called between stopping and destroying the streams of a recording. OpenNI2's player goes
 /// through them in a thread of its own and without a lock: at once after one was stopped, and each
-/// 10 ms while none plays. One that is destroyed meanwhile ends the process, about once in 150 times
-/// without this pause.
+/// 10 ms while none plays. One that is destroyed meanwhile ends the process, about once in 150
+/// times without this pause.
 void letPlayerRest();
 
 /// @return the text of OpenNI2's last error on one line.
