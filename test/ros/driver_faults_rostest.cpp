@@ -121,7 +121,7 @@ TEST_F(DriverFault, StampsFollowAClockThatDrifts) {
   }
   ASSERT_GE(errors.size(), 30U) << "images whose exposure is known";
   std::cout << "median error of the stamps: " << 1e3 * median(errors) << " ms\n";
-  EXPECT_NEAR(median(errors), 0.0, 0.01);
+  EXPECT_NEAR(median(errors), 0.0, 0.04);  // a quarter of what it is without following
   for (std::size_t i = 1; i < images.size(); ++i) {
     ASSERT_GT(images.messages()[i]->header.stamp, images.messages()[i - 1]->header.stamp);
   }
