@@ -8,9 +8,6 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr double kSoon = 0.01;   // [s] after onInit
-constexpr double kPeriod = 1.0;  // [s] of diagnostics
-
 /// What is read once, at the start.
 const std::set<std::string> kStartParameters = {
     "device_id",           "depth_frame_id",     "rgb_frame_id",      "depth_camera_info_url",
@@ -57,28 +54,13 @@ OpenNI2DriverNodelet::~OpenNI2DriverNodelet() {
   if (reconfigure_spinner_) reconfigure_spinner_->stop();
 }
 
-void OpenNI2DriverNodelet::onInit() {
-  try {
-    start();
-  } catch (const std::exception& error) {
-    NODELET_ERROR_STREAM("Could not start: " << error.what());
-    return;
-  }
-  started_ = true;
-  timer_ = getNodeHandle().createWallTimer(
-      ros::WallDuration(kSoon), [this](const ros::WallTimerEvent&) { onTimer(); }, false, false);
-  timer_.start();
-}
-
 void OpenNI2DriverNodelet::onTimer() {
-  timer_.setPeriod(ros::WallDuration(kPeriod));
   // Somebody may have come during the start.
   followListeners();
   diagnostics_->report(session_->status());
 }
 
 void OpenNI2DriverNodelet::start() {
-  name_ = std::make_unique<NameClaim>(getName());
   const ros::NodeHandle& node = getNodeHandle();
   const ros::NodeHandle& private_node = getPrivateNodeHandle();
   corrector_ = std::make_unique<DepthCorrector>(readCalibration(private_node));
@@ -112,7 +94,7 @@ void OpenNI2DriverNodelet::offerParameters() {
 }
 
 void OpenNI2DriverNodelet::followListeners() {
-  if (!started_) return;
+  if (!started()) return;
   for (const StreamKind kind : kAllStreams) {
     const bool wanted = outputs_.wants(kind);
     diagnostics_->setWanted(kind, wanted);
@@ -182,7 +164,7 @@ void OpenNI2DriverNodelet::onReconfigure(OpenNI2DriverConfig& config) {
 
 bool OpenNI2DriverNodelet::onGetSerial(GetSerial::Request& /*request*/,
                                        GetSerial::Response& response) {
-  if (started_) response.serial = session_->status().camera.serial;
+  if (started()) response.serial = session_->status().camera.serial;
   return true;
 }
 

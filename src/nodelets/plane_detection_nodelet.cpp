@@ -6,9 +6,6 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr double kSoon = 0.01;   // [s] after onInit
-constexpr double kPeriod = 1.0;  // [s] of diagnostics
-
 InputKind readInputKind(const ros::NodeHandle& node) {
   const std::string name = node.param<std::string>("input", "depth");
   if (name == "points") return InputKind::kPoints;
@@ -21,21 +18,7 @@ InputKind readInputKind(const ros::NodeHandle& node) {
 
 }  // namespace
 
-void PlaneDetectionNodelet::onInit() {
-  try {
-    start();
-  } catch (const std::exception& error) {
-    NODELET_ERROR_STREAM("Could not start: " << error.what());
-    return;
-  }
-  started_ = true;
-  timer_ = getNodeHandle().createWallTimer(
-      ros::WallDuration(kSoon), [this](const ros::WallTimerEvent&) { onTimer(); }, false, false);
-  timer_.start();
-}
-
 void PlaneDetectionNodelet::onTimer() {
-  timer_.setPeriod(ros::WallDuration(kPeriod));
   // Somebody may have come during the start.
   followListeners();
   diagnostics_->report(
@@ -43,7 +26,6 @@ void PlaneDetectionNodelet::onTimer() {
 }
 
 void PlaneDetectionNodelet::start() {
-  name_ = std::make_unique<NameClaim>(getName());
   const ros::NodeHandle& node = getNodeHandle();
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   detector_ = DominantPlaneDetector(loadParameters<Parameters, PlaneDetectionConfig>(
@@ -62,7 +44,7 @@ void PlaneDetectionNodelet::start() {
 }
 
 void PlaneDetectionNodelet::followListeners() {
-  if (!started_) return;
+  if (!started()) return;
   std::string error;
   try {
     trySubscriptions();
