@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "openni2/camera_choice.h"
-#include "openni2/runtime.h"
+#include "openni2/open_stream.h"
 #include "openni_frames.h"
 
 namespace dominant_plane_detection {
@@ -25,27 +25,24 @@ void chooseRawMode(openni::VideoStream& stream) {
 
 }  // namespace
 
-LiveDisparity::LiveDisparity(const std::string& device_id) : runtime_(OpenNi2Runtime::instance()) {
-  const CameraChoice choice = chooseCamera(device_id, runtime_->cameras());
+LiveDisparity::LiveDisparity(const std::string& device_id) {
+  const CameraChoice choice = chooseCamera(device_id, OpenNi2Runtime::instance()->cameras());
   if (choice.uri.empty()) throw std::runtime_error(choice.error);
-  device_ = runtime_->open(choice.uri);
-  stream_ = std::make_unique<openni::VideoStream>();
-  if (stream_->create(*device_, openni::SENSOR_DEPTH) != openni::STATUS_OK) {
+  camera_ = std::make_unique<OpenStream>(choice.uri);
+  openni::VideoStream& stream = camera_->stream;
+  if (stream.create(*camera_->device, openni::SENSOR_DEPTH) != openni::STATUS_OK) {
     throw std::runtime_error("there is no depth stream: " + lastOpenNi2Error());
   }
-  chooseRawMode(*stream_);
-  if (stream_->start() != openni::STATUS_OK) throw std::runtime_error(lastOpenNi2Error());
+  chooseRawMode(stream);
+  if (stream.start() != openni::STATUS_OK) throw std::runtime_error(lastOpenNi2Error());
 }
 
-LiveDisparity::~LiveDisparity() {
-  if (stream_) stream_->destroy();
-  if (device_) runtime_->close(std::move(device_));
-}
+LiveDisparity::~LiveDisparity() = default;
 
 void LiveDisparity::read(int frames, const std::function<void(const DepthView&)>& function) {
   for (int i = 0; i < frames; ++i) {
     openni::VideoFrameRef frame;
-    if (!readFrame(*stream_, kPatience, frame)) {
+    if (!readFrame(camera_->stream, kPatience, frame)) {
       throw std::runtime_error("no images come from the camera");
     }
     function(viewOf(frame));

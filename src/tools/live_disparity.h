@@ -6,14 +6,9 @@
 
 #include "dominant_plane_detection/depth_image.h"
 
-namespace openni {
-class Device;
-class VideoStream;
-}  // namespace openni
-
 namespace dominant_plane_detection {
 
-class OpenNi2Runtime;
+struct OpenStream;
 
 /// Raw disparity of a connected camera, without ROS.
 class LiveDisparity {
@@ -30,9 +25,7 @@ class LiveDisparity {
   void read(int frames, const std::function<void(const DepthView&)>& function);
 
  private:
-  std::shared_ptr<OpenNi2Runtime> runtime_;
-  std::unique_ptr<openni::Device> device_;
-  std::unique_ptr<openni::VideoStream> stream_;
+  std::unique_ptr<OpenStream> camera_;
 };
 
 }  // namespace dominant_plane_detection

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "frame_source.h"
-#include "openni2/runtime.h"
+#include "openni2/open_stream.h"
 #include "openni_frames.h"
 
 namespace dominant_plane_detection {
@@ -23,31 +23,11 @@ std::string frameName(std::uint64_t microseconds) {
   return name;
 }
 
-/// An open recording. It is closed in the order that OpenNI2's player bears, whatever happened.
-struct Playback {
-  Playback() = default;
-  Playback(const Playback&) = delete;
-  Playback& operator=(const Playback&) = delete;
-  ~Playback() {
-    frame.release();
-    stream.stop();
-    letPlayerRest();
-    stream.destroy();
-    if (device) runtime->close(std::move(device));
-  }
-
-  std::shared_ptr<OpenNi2Runtime> runtime = OpenNi2Runtime::instance();
-  std::unique_ptr<openni::Device> device;
-  openni::VideoStream stream;
-  openni::VideoFrameRef frame;  ///< memory of the last frame
-};
-
 /// The depth frames of an .oni file, read as fast as they are asked for.
 class OniSource : public FrameSource {
  public:
   OniSource(const std::string& file, const SourceOptions& options)
-      : file_(file), camera_(options.camera) {
-    recording_.device = recording_.runtime->open(std::filesystem::absolute(file).string());
+      : file_(file), camera_(options.camera), recording_(std::filesystem::absolute(file).string()) {
     openni::PlaybackControl* playback = recording_.device->getPlaybackControl();
     if (playback == nullptr) throw std::runtime_error("this is no recording");
     playback->setRepeatEnabled(false);
@@ -58,15 +38,16 @@ class OniSource : public FrameSource {
     }
     frames_ = static_cast<std::size_t>(std::max(playback->getNumberOfFrames(recording_.stream), 0));
     readFormat(options.raw_disparity);
-    if (recording_.stream.start() != openni::STATUS_OK)
+    if (recording_.stream.start() != openni::STATUS_OK) {
       throw std::runtime_error(lastOpenNi2Error());
+    }
   }
 
   std::size_t size() const override { return frames_; }
 
   std::optional<Frame> next() override {
     if (read_ >= frames_) return std::nullopt;
-    if (!readFrame(recording_.stream, kEnd, recording_.frame)) {
+    if (!readFrame(recording_.stream, kEnd, frame_)) {
       const std::size_t missing = frames_ - read_;
       read_ = frames_;
       throw UnreadableFrame(file_ + ": expected " + std::to_string(frames_) + " images, the last " +
@@ -74,7 +55,7 @@ class OniSource : public FrameSource {
     }
     ++read_;
     Frame frame;
-    frame.name = frameName(recording_.frame.getTimestamp());
+    frame.name = frameName(frame_.getTimestamp());
     frame.depth = view();
     frame.camera = camera();
     return frame;
@@ -96,7 +77,7 @@ class OniSource : public FrameSource {
 
   DepthView view() const {
     try {
-      DepthView view = viewOf(recording_.frame);
+      DepthView view = viewOf(frame_);
       view.metres_per_unit = metres_per_unit_;
       return view;
     } catch (const std::runtime_error& error) {
@@ -108,8 +89,8 @@ class OniSource : public FrameSource {
   CameraModel camera() const {
     CameraModel model = camera_.value_or(CameraModel());
     if (model.width == 0) {
-      model.width = recording_.frame.getWidth();
-      model.height = recording_.frame.getHeight();
+      model.width = frame_.getWidth();
+      model.height = frame_.getHeight();
     }
     if (camera_) return model;
     const double fov = static_cast<double>(recording_.stream.getHorizontalFieldOfView());
@@ -126,7 +107,8 @@ class OniSource : public FrameSource {
 
   std::string file_;
   std::optional<CameraModel> camera_;
-  Playback recording_;
+  OpenStream recording_;
+  openni::VideoFrameRef frame_;  ///< memory of the last frame
   float metres_per_unit_ = kMillimetre;
   std::size_t frames_ = 0;
   std::size_t read_ = 0;

@@ -3,10 +3,7 @@
 #include <dominant_plane_detection/DominantPlane.h>
 #include <nodelet/NodeletList.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "nodelet_fixture.h"
 #include "support/oni_recording.h"
@@ -15,16 +12,6 @@ namespace dominant_plane_detection {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Flips one bit in the name of a property, for whose letters OpenNI2's player has a table.
-void damage(const std::string& file) {
-  std::ifstream input(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
-  const std::size_t name = bytes.find("xnMapOutputMode");
-  ASSERT_NE(name, std::string::npos);
-  bytes[name + 7] = static_cast<char>(bytes[name + 7] ^ 0x80);
-  std::ofstream(file, std::ios::binary) << bytes;
-}
 
 /// @return the nodelets of a manager; none where it does not answer.
 std::vector<std::string> nodeletsOf(const std::string& manager) {
@@ -47,7 +34,8 @@ TEST(DamagedRecording, EndsItsOwnManagerAlone) {
   ASSERT_TRUE(node.getParam("driver/device_id", file));
   const std::string whole = file + ".whole.oni";
   recordOni("virtual://rubbish_bin?serial=DAMAGED&noise=0", whole, 10);
-  damage(whole);
+  // In the name of a property, for whose letters OpenNI2's player has a table.
+  flipBit(whole, "xnMapOutputMode", 7, 7);
   fs::rename(whole, file);  // at once, as the driver waits for it
   // Where OpenNI2's player learns to refuse such a file this test loses its subject.
   ASSERT_TRUE(spinUntil([&] { return nodeletsOf(player).empty(); }, 60.0))

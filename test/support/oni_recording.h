@@ -3,11 +3,13 @@
 #include <OpenNI.h>
 
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "openni2/runtime.h"
+#include "openni2/open_stream.h"
 
 namespace dominant_plane_detection {
 
@@ -44,10 +46,9 @@ inline std::vector<std::vector<std::uint16_t>> recordOni(
   const auto require = [](openni::Status status) {
     if (status != openni::STATUS_OK) throw std::runtime_error(lastOpenNi2Error());
   };
-  const auto runtime = OpenNi2Runtime::instance();
-  auto device = runtime->open(uri);
-  openni::VideoStream stream;
-  require(stream.create(*device, openni::SENSOR_DEPTH));
+  OpenStream camera(uri);
+  openni::VideoStream& stream = camera.stream;
+  require(stream.create(*camera.device, openni::SENSOR_DEPTH));
   setFormat(stream, format);
   require(stream.start());
   openni::Recorder recorder;
@@ -58,29 +59,38 @@ inline std::vector<std::vector<std::uint16_t>> recordOni(
   for (int i = 0; i < frames; ++i) pixels.push_back(readDepth(stream));
   recorder.stop();
   recorder.destroy();
-  stream.destroy();
-  runtime->close(std::move(device));
   return pixels;
+}
+
+/// Damages a recording by one bit.
+/// @param property in whose record it is, the first one in the file.
+/// @param offset [byte] from the first letter of its name.
+/// @return the byte as it was.
+inline std::uint8_t flipBit(const std::string& file, const std::string& property,
+                            std::size_t offset, int bit) {
+  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::size_t name = bytes.find(property);
+  if (name == std::string::npos) throw std::runtime_error(file + ": no " + property);
+  const auto old = static_cast<std::uint8_t>(bytes.at(name + offset));
+  stream.seekp(static_cast<std::streamoff>(name + offset));
+  stream.put(static_cast<char>(old ^ (1U << bit)));
+  return old;
 }
 
 /// Reads all depth frames of a recording with OpenNI2's own player, one after the other. What was
 /// read while it was recorded need not be all of it.
 inline std::vector<std::vector<std::uint16_t>> readOni(const std::string& file) {
-  const auto runtime = OpenNi2Runtime::instance();
-  auto device = runtime->open(file);
-  openni::VideoStream stream;
-  if (stream.create(*device, openni::SENSOR_DEPTH) != openni::STATUS_OK ||
-      device->getPlaybackControl()->setSpeed(-1.0F) != openni::STATUS_OK ||
-      stream.start() != openni::STATUS_OK) {
+  OpenStream recording(file);
+  openni::VideoStream& stream = recording.stream;
+  openni::PlaybackControl* const playback = recording.device->getPlaybackControl();
+  if (stream.create(*recording.device, openni::SENSOR_DEPTH) != openni::STATUS_OK ||
+      playback->setSpeed(-1.0F) != openni::STATUS_OK || stream.start() != openni::STATUS_OK) {
     throw std::runtime_error(lastOpenNi2Error());
   }
   std::vector<std::vector<std::uint16_t>> pixels;
-  const int frames = device->getPlaybackControl()->getNumberOfFrames(stream);
+  const int frames = playback->getNumberOfFrames(stream);
   for (int i = 0; i < frames; ++i) pixels.push_back(readDepth(stream));
-  stream.stop();
-  letPlayerRest();
-  stream.destroy();
-  runtime->close(std::move(device));
   return pixels;
 }
 
