@@ -140,9 +140,8 @@ TEST_F(DriverStatus, ParametersThatWaitForTheCameraHoldUpNothingElse) {
   GetSerial serial;
   ASSERT_TRUE(ros::service::call("/camera/get_serial", serial));
   EXPECT_EQ(serial.response.serial, "") << "it is not open yet";
-  EXPECT_NE(answer.wait_for(std::chrono::seconds(0)), std::future_status::ready);
-  ASSERT_TRUE(spinUntil(
-      [&] { return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+  EXPECT_FALSE(isReady(answer));
+  ASSERT_TRUE(spinUntil([&] { return isReady(answer); }));
   Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
   ASSERT_TRUE(spinUntil([&] { return images.size() >= 3; }));
   EXPECT_EQ(images.last()->width, 320U);

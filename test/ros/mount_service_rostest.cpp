@@ -77,8 +77,7 @@ TEST_F(MountService, CallsEndWhileListenersComeAndGo) {
     planes += plane.size();
     last = answered;
   }
-  ASSERT_TRUE(spinUntil(
-      [&] { return caller.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+  ASSERT_TRUE(spinUntil([&] { return isReady(caller); }));
   EXPECT_EQ(caller.get(), calls);
   std::cout << calls << " calls, " << planes << " planes meanwhile\n";
 }
@@ -130,8 +129,7 @@ TEST_F(MountService, EndsWithItsNodelet) {
   };
   ASSERT_TRUE(spinUntil(listeners));
   ASSERT_TRUE(manager_.unload("/camera/plane_detection"));
-  ASSERT_TRUE(spinUntil(
-      [&] { return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+  ASSERT_TRUE(spinUntil([&] { return isReady(answer); }, 10.0));
   EXPECT_NE(answer.get(), "");
 }
 

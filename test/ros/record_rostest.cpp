@@ -39,9 +39,6 @@ class Record : public testing::Test {
     return std::async(std::launch::async, [command] { return std::system(command.c_str()); });
   }
   std::string log() const { return folder_ / "roslaunch.log"; }
-  static bool ended(std::future<int>& launched) {
-    return launched.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  }
   /// Records until both topics have brought some messages more.
   void record(const std::string& depth, const std::string& more) {
     auto launched = launch(bag(), more);
@@ -51,7 +48,7 @@ class Record : public testing::Test {
     ASSERT_TRUE(spinUntil([&] { return images.size() >= 60 && pictures.size() >= 60; }, 60.0));
     // The recorder ends its bag when its node is shut down, and the launch with it.
     ASSERT_EQ(std::system("rosnode kill /recorder > /dev/null"), 0);
-    ASSERT_TRUE(spinUntil([&] { return ended(launched); }, 60.0));
+    ASSERT_TRUE(spinUntil([&] { return isReady(launched); }, 60.0));
     ASSERT_TRUE(fs::exists(bag()));
   }
   template <typename Message>
@@ -107,7 +104,7 @@ TEST_F(Record, WritesRegisteredDepthWhereThatIsWhatThereIs) {
 
 TEST_F(Record, EndsWhereNothingCanBeWritten) {
   auto launched = launch("/no such folder/drive.bag");
-  ASSERT_TRUE(spinUntil([&] { return ended(launched); }, 60.0));
+  ASSERT_TRUE(spinUntil([&] { return isReady(launched); }, 60.0));
   std::ifstream file(log());
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   EXPECT_NE(text.find("REQUIRED process [recorder"), std::string::npos) << text;

@@ -4,8 +4,10 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <functional>
+#include <future>
 #include <map>
 #include <string>
 #include <vector>
@@ -28,6 +30,12 @@ inline bool spinUntil(const std::function<bool()>& condition, double seconds = 2
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
   }
   return true;
+}
+
+/// @return whether the other thread has its result.
+template <typename Result>
+bool isReady(const std::future<Result>& result) {
+  return result.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 /// Keeps every message of a topic.
