@@ -119,11 +119,9 @@ Labels labelsByHeight(const ReferenceSet& set, const DepthView& view, const Dete
   Labels labels(detection.labels.size(), static_cast<std::uint8_t>(Label::kUnknown));
   for (int v = 0; v < view.height; ++v) {
     for (int u = 0; u < view.width; ++u) {
-      const auto z = static_cast<double>(metresAt(view, u, v));
-      if (z < set.range_min || z > set.range_max) continue;
-      const Eigen::Vector3d ray((u - set.camera.cx) / set.camera.fx,
-                                (v - set.camera.cy) / set.camera.fy, 1.0);
-      const double height = detection.height(z * ray);
+      const Eigen::Vector3d point = set.point(view, u, v);
+      if (point.z() < set.range_min || point.z() > set.range_max) continue;
+      const double height = detection.height(point);
       const Label label = height > threshold    ? Label::kObstacle
                           : height < -threshold ? Label::kDropOff
                                                 : Label::kGround;
@@ -157,16 +155,14 @@ void evaluate(const ReferenceSet& set, const std::string& pictures) {
   parameters.range_min = set.range_min;
   parameters.range_max = set.range_max;
   DominantPlaneDetector detector(parameters);
-  std::vector<Contestant> contestants(3);
-  contestants[0] = {
-      "the detector", [](const auto&, const Detection& d) { return d.labels; }, {}, {}};
+  std::vector<Contestant> contestants;
+  contestants.push_back(
+      {"the detector", [](const auto&, const Detection& d) { return d.labels; }, {}, {}});
   for (const int mm : {15, 30}) {
-    contestants[mm / 15U] = {std::to_string(mm) + " mm over its plane",
-                             [&set, mm](const DepthView& view, const Detection& detection) {
-                               return labelsByHeight(set, view, detection, 1e-3 * mm);
-                             },
-                             {},
-                             {}};
+    const auto labels = [&set, mm](const DepthView& view, const Detection& detection) {
+      return labelsByHeight(set, view, detection, 1e-3 * mm);
+    };
+    contestants.push_back({std::to_string(mm) + " mm over its plane", labels, {}, {}});
   }
   std::vector<FloorObjects> floors;
   for (const ReferenceImage& image : set.images) {

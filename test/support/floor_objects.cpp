@@ -5,7 +5,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "dominant_plane_detection/noise_model.h"
-#include "support/scoring.h"
 #include "synthetic/renderer.h"
 
 namespace dominant_plane_detection {
@@ -15,10 +14,6 @@ constexpr int kWindow = 41;        // [px]
 constexpr double kShare = 0.7;     // [-] of floor in the window
 constexpr double kSigmas = 6.0;    // [-]
 constexpr double kReadings = 0.5;  // [-] of an object's pixels
-
-Eigen::Vector3d rayAt(const ReferenceSet& set, int u, int v) {
-  return {(u - set.camera.cx) / set.camera.fx, (v - set.camera.cy) / set.camera.fy, 1.0};
-}
 
 Eigen::Isometry3d worldFromCamera(const ReferenceImage& image) {
   const Eigen::Vector3d up = image.up.normalized();
@@ -43,10 +38,10 @@ cv::Mat floorMask(const ReferenceSet& set, const ReferenceImage& image) {
   for (int v = 0; v < floor.rows; ++v) {
     for (int u = 0; u < floor.cols; ++u) {
       if (share.at<float>(v, u) < kShare) continue;
-      const auto z = static_cast<double>(metresAt(view, u, v));
-      const double height = z * image.up.dot(rayAt(set, u, v)) + image.height;
-      const bool near = std::abs(height) < kSigmas * NoiseModel{}.sigma(z);
-      if (z == 0.0 || near) floor.at<std::uint8_t>(v, u) = 255;
+      const Eigen::Vector3d point = set.point(view, u, v);
+      const double height = image.up.dot(point) + image.height;
+      const bool near = std::abs(height) < kSigmas * NoiseModel{}.sigma(point.z());
+      if (point.z() == 0.0 || near) floor.at<std::uint8_t>(v, u) = 255;
     }
   }
   return floor;
@@ -59,12 +54,12 @@ FloorObjects::FloorObjects(const ReferenceSet& set, const ReferenceImage& image)
       floor_(floorMask(set, image)) {}
 
 double FloorObjects::planeDepth(int u, int v) const {
-  const double down = -image_.up.dot(rayAt(set_, u, v));
+  const double down = -image_.up.dot(set_.camera.ray({u, v}).homogeneous());
   return down > 0.0 ? image_.height / down : 0.0;
 }
 
 Eigen::Vector3d FloorObjects::planePoint(int u, int v) const {
-  return world_from_camera_ * (planeDepth(u, v) * rayAt(set_, u, v));
+  return world_from_camera_ * (planeDepth(u, v) * set_.camera.ray({u, v}).homogeneous());
 }
 
 std::optional<StoodIn> FloorObjects::stand(TriangleMesh object, int u, int v) const {
@@ -79,7 +74,6 @@ std::optional<StoodIn> FloorObjects::stand(TriangleMesh object, int u, int v) co
   StoodIn result;
   result.depth = image_.depth.clone();
   const DepthView view = set_.view(image_);
-  std::vector<double> depths;
   std::size_t seen = 0;
   for (int y = 0; y < rendering.height; ++y) {
     for (int x = 0; x < rendering.width; ++x) {
@@ -97,13 +91,11 @@ std::optional<StoodIn> FloorObjects::stand(TriangleMesh object, int u, int v) co
       result.depth.at<std::uint16_t>(y, x) =
           static_cast<std::uint16_t>(std::clamp(std::lround(units), 1L, 65535L));
       result.pixels.push_back(index);
-      depths.push_back(object_z);
     }
   }
-  if (static_cast<double>(depths.size()) <= kReadings * static_cast<double>(seen)) {
+  if (static_cast<double>(result.pixels.size()) <= kReadings * static_cast<double>(seen)) {
     return std::nullopt;
   }
-  result.distance = quantile(depths, 0.5);
   return result;
 }
 

@@ -20,7 +20,6 @@ cv::Mat floorMask(const ReferenceSet& set, const ReferenceImage& image);
 struct StoodIn {
   cv::Mat depth;            ///< as the image's, but for the object's pixels
   std::vector<int> pixels;  ///< row-major indices of the object's readings
-  double distance = 0.0;    ///< [m] median depth of these
 };
 
 /// Stands objects into real images: a pixel that one hides gets the object's depth and the error

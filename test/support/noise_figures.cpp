@@ -36,17 +36,13 @@ int binOf(double z) {
   return bin < kBins ? bin : -1;
 }
 
-Eigen::Vector3d pointAt(const ReferenceSet& set, const ReferenceImage& image, int u, int v) {
-  const auto z = static_cast<double>(metresAt(set.view(image), u, v));
-  return {(u - set.camera.cx) / set.camera.fx * z, (v - set.camera.cy) / set.camera.fy * z, z};
-}
-
 template <typename Visit>
 void forFloor(const ReferenceSet& set, const ReferenceImage& image, Visit&& visit) {
+  const DepthView depth = set.view(image);
   for (int v = 0; v < image.depth.rows; ++v) {
     for (int u = 0; u < image.depth.cols; ++u) {
       if (image.ground.at<std::uint8_t>(v, u) != 255) continue;
-      const Eigen::Vector3d point = pointAt(set, image, u, v);
+      const Eigen::Vector3d point = set.point(depth, u, v);
       if (binOf(point.z()) < 0) continue;
       // The band that the recordings' masks were made with.
       const double height = image.up.dot(point) + image.height;

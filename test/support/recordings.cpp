@@ -1,5 +1,6 @@
 #include "support/recordings.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -34,6 +35,10 @@ DepthView ReferenceSet::view(const ReferenceImage& image) const {
   view.step = image.depth.step;
   view.metres_per_unit = metres_per_unit;
   return view;
+}
+
+Eigen::Vector3d ReferenceSet::point(const DepthView& depth, int u, int v) const {
+  return static_cast<double>(metresAt(depth, u, v)) * camera.ray({u, v}).homogeneous();
 }
 
 std::string recordingsFolder() {

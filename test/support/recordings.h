@@ -32,6 +32,8 @@ struct ReferenceSet {
   std::vector<ReferenceImage> images;
 
   DepthView view(const ReferenceImage& image) const;
+  /// @return [m] what a pixel shows, in the optical frame; 0 without a reading.
+  Eigen::Vector3d point(const DepthView& depth, int u, int v) const;
 };
 
 /// @return the folder with the recordings: DPD_RECORDINGS, or else the one the build was told.
