@@ -111,6 +111,21 @@ TEST(DeviceSession, ImagesThatAreKeptHaveABound) {
   EXPECT_EQ(session.status().stream(StreamKind::kColour).restarts, 0) << "it was never silent";
 }
 
+/// An image that cannot be delivered, as when memory runs out, is lost alone.
+TEST(DeviceSession, AnExceptionDoesNotEndAStream) {
+  ros::Time::init();
+  std::atomic<int> frames{0};
+  DeviceSession::Callbacks callbacks;
+  callbacks.opened = [](const CameraDevice&) {};
+  callbacks.frame = [&](StreamKind, const SensorFrame&) {
+    if (++frames == 1) throw std::runtime_error("no memory");
+  };
+  DeviceSession session("virtual://rubbish_bin?serial=THROWS&noise=0", CameraSettings(), 30.0,
+                        callbacks);
+  session.want(StreamKind::kDepth, true);
+  EXPECT_TRUE(becomes([&] { return frames >= 5; })) << frames;
+}
+
 /// Who waits for the camera to follow is answered when there will be none.
 TEST(DeviceSession, EndingAnswersWhoWaits) {
   std::promise<void> opening, never;
