@@ -48,8 +48,9 @@ DepthCalibration readCalibration(const ros::NodeHandle& node) {
 }  // namespace
 
 OpenNI2DriverNodelet::~OpenNI2DriverNodelet() {
-  // The session first: whoever waits for the camera to follow parameters is answered, and no image
-  // is published from here on.
+  stopTimer();
+  // The session before the rest: whoever waits for the camera to follow parameters is answered, and
+  // no image is published from here on.
   if (session_) session_->end();
   if (reconfigure_spinner_) reconfigure_spinner_->stop();
 }

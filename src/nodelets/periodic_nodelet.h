@@ -22,6 +22,8 @@ class PeriodicNodelet : public nodelet::Nodelet {
   /// Soon after the start, and once a second from then on, in the nodelet's own queue.
   virtual void onTimer() = 0;
 
+  /// For the destructors of derived classes, before anything that `onTimer` uses is gone.
+  void stopTimer() { timer_.stop(); }
   /// @return whether `start` has come to its end; from any thread.
   bool started() const { return started_; }
 

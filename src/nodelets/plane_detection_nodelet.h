@@ -24,6 +24,9 @@ namespace dominant_plane_detection {
 /// the other, so that there is no lock: images, listeners that come and go, parameters, the timer.
 /// A call of `calibrate_mount` waits in a thread of its own (see `MountService`).
 class PlaneDetectionNodelet : public PeriodicNodelet {
+ public:
+  ~PlaneDetectionNodelet() override { stopTimer(); }
+
  private:
   void start() override;
   void onTimer() override;
