@@ -61,8 +61,8 @@ void labels(benchmark::State& state) {
   const DepthView view = depth();
   for (auto _ : state) {
     benchmark::DoNotOptimize(segmentation.label({view, table, {view.metres_per_unit, 0.5F, 4.0F}},
-                                                image.up, image.height, {p.noise, p.ground_band},
-                                                everywhere, labels));
+                                                image.up, image.height,
+                                                {p.noise, p.ground_band, {}}, everywhere, labels));
   }
 }
 BENCHMARK(labels)->Unit(benchmark::kMicrosecond);

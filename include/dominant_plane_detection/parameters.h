@@ -31,7 +31,11 @@ struct Parameters {
 
   bool join_pieces = true;  ///< pieces of the plane beyond a gap wider than delta join
 
-  DepthThreshold ground_band{0.0, 3.0};  ///< [m] largest height of a pixel that is still ground
+  DepthThreshold ground_band{0.0, 5.0};    ///< [m] outer limit: what is higher is never ground
+  NoiseModel local_error{0.0005, 0.0012};  ///< [m] rms of blocks over the ground about them
+  double false_alarm_rate = 0.2;       ///< [1/image] of low obstacles; 0: ground_band alone decides
+  double min_obstacle_height = 0.005;  ///< [m] lowest obstacle within the ground band
+  double min_obstacle_width = 0.08;    ///< [m] narrowest one
   int min_patch = 400;      ///< [px] smallest connected piece of ground, of 640 x 480 pixels
   double min_share = 0.05;  ///< [-] smallest plane, as a share of the valid pixels
   Eigen::Vector3d expected_up{0.0, -1.0, 0.0};  ///< [-] in the optical frame, of any length

@@ -166,6 +166,13 @@ class DominantPlaneDetector::Implementation {
         std::max(static_cast<std::size_t>(std::ceil(parameters_.min_share * valid)), minPatch())};
   }
 
+  SegmentationLimits segmentationLimits() const {
+    const Parameters& p = parameters_;
+    return {p.noise,
+            p.ground_band,
+            {p.min_obstacle_height, p.min_obstacle_width, p.false_alarm_rate, p.local_error}};
+  }
+
   const Detection& refuse(State state, const Sentence& sentence) {
     detection_.state = state;
     detection_.reason.assign(sentence.data());
@@ -180,8 +187,7 @@ class DominantPlaneDetector::Implementation {
     const HessePlane& plane = selection.plane();
     const Eigen::Vector3d normal = -plane.normal;
     const SegmentationCounts counts = segmentation_.label(
-        input, normal, plane.distance, {parameters_.noise, parameters_.ground_band}, grid_.ground(),
-        detection_.labels);
+        input, normal, plane.distance, segmentationLimits(), grid_.ground(), detection_.labels);
     if (counts.ground < selection.minPoints()) {
       Sentence sentence{};
       std::snprintf(

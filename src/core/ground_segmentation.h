@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "core/image_kernel.h"
+#include "core/low_obstacles.h"
 #include "dominant_plane_detection/noise_model.h"
 
 namespace dominant_plane_detection {
 
 /// What decides a pixel's label.
 struct SegmentationLimits {
-  NoiseModel noise;     ///< sigma(z)
-  DepthThreshold band;  ///< [m] |height| up to which a pixel can be ground, of its depth
+  NoiseModel noise;       ///< sigma(z)
+  DepthThreshold band;    ///< [m] |height| up to which a pixel can be ground, of its depth
+  LowObstacleLimits low;  ///< within the band; with a false alarm rate of 0 they are not looked for
 };
 
 /// What the labelling counted.
@@ -38,10 +40,9 @@ class GroundSegmentation {
                            std::vector<std::uint8_t>& labels);
 
  private:
-  void widen(int columns, int rows, const std::vector<std::uint8_t>& region);
-
-  std::vector<std::uint8_t> in_row_;       ///< 1 for tiles of the region and their row neighbours
-  std::vector<std::uint8_t> near_ground_;  ///< 1 for tiles of the region and all neighbours
+  LowObstacles low_obstacles_;
+  std::vector<std::uint8_t> in_row_;      ///< 1 for tiles of the region and their row neighbours
+  std::vector<std::uint8_t> tile_kinds_;  ///< `TileKind` of each tile
 };
 
 }  // namespace dominant_plane_detection

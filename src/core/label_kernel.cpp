@@ -19,7 +19,7 @@ namespace HWY_NAMESPACE {
 /// The rule in vectors. Made once: the labels are bytes, which may alias anything, so the compiler
 /// would load the rule again after each of them.
 struct VectorRule {
-  Vector normal_x, normal_y, normal_z, distance, band, band_z2;
+  Vector normal_x, normal_y, normal_z, distance, band, band_z2, narrow, narrow_z2;
 
   explicit VectorRule(const LabelRule& rule) {
     const Floats d;
@@ -29,6 +29,8 @@ struct VectorRule {
     distance = hn::Set(d, rule.distance);
     band = hn::Set(d, rule.band);
     band_z2 = hn::Set(d, rule.band_z2);
+    narrow = hn::Set(d, rule.narrow);
+    narrow_z2 = hn::Set(d, rule.narrow_z2);
   }
 };
 
@@ -38,8 +40,7 @@ struct VectorSums {
 };
 
 /// Labels the pixels of one vector.
-/// @tparam kNearGround whether pixels within the band are ground; otherwise they are unknown.
-template <bool kNearGround>
+template <TileKind kKind>
 HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, VectorSums& sums,
                             std::uint8_t* labels) {
   const Floats d;
@@ -48,36 +49,47 @@ HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, Vector
   const auto along_ray = hn::MulAdd(rule.normal_x, points.ray_x,
                                     hn::MulAdd(rule.normal_y, points.ray_y, rule.normal_z));
   const auto height = hn::MulAdd(points.z, along_ray, rule.distance);
-  const auto band = hn::MulAdd(hn::Mul(points.z, points.z), rule.band_z2, rule.band);
-  const auto in_band = hn::And(points.valid, hn::Le(hn::Abs(height), band));
+  const auto z2 = hn::Mul(points.z, points.z);
+  const auto off = hn::Abs(height);
+  const auto in_band = hn::And(points.valid, hn::Le(off, hn::MulAdd(z2, rule.band_z2, rule.band)));
+  const auto ground =
+      kKind == kSmeared ? hn::And(in_band, hn::Le(off, hn::MulAdd(z2, rule.narrow_z2, rule.narrow)))
+                        : in_band;
 
   const auto constant = [&](Label label) {
     return hn::Set(wide, static_cast<std::int32_t>(label));
   };
   const auto off_plane = hn::IfThenElse(hn::RebindMask(wide, hn::Gt(height, hn::Zero(d))),
                                         constant(Label::kObstacle), constant(Label::kDropOff));
-  const auto any =
-      hn::IfThenElse(hn::RebindMask(wide, in_band),
-                     constant(kNearGround ? Label::kGround : Label::kUnknown), off_plane);
+  const auto on_plane = kKind == kElsewhere
+                            ? constant(Label::kUnknown)
+                            : hn::IfThenElse(hn::RebindMask(wide, ground), constant(Label::kGround),
+                                             constant(Label::kUnknown));
+  const auto any = hn::IfThenElse(hn::RebindMask(wide, in_band), on_plane, off_plane);
   const auto label = hn::IfThenElseZero(hn::RebindMask(wide, points.valid), any);
   hn::StoreU(hn::DemoteTo(bytes, label), bytes, labels);
-  if (!kNearGround) return;
-  sums.ground = hn::Add(sums.ground, hn::IfThenElseZero(in_band, hn::Set(d, 1.0F)));
+  if (kKind == kElsewhere) return;
+  sums.ground = hn::Add(sums.ground, hn::IfThenElseZero(ground, hn::Set(d, 1.0F)));
   // Without a reading the height is not a number.
-  const auto counted = hn::IfThenElseZero(in_band, height);
+  const auto counted = hn::IfThenElseZero(ground, height);
   sums.square_height = hn::MulAdd(counted, counted, sums.square_height);
 }
 
-/// The same, near ground (1) or not (0): mostly as the vector before.
-HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, std::uint8_t near_ground,
+/// The same for a tile of any kind: mostly that of the vector before.
+HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, std::uint8_t tile,
                             VectorSums& sums, std::uint8_t* labels) {
-  near_ground ? labelVector<true>(points, rule, sums, labels)
-              : labelVector<false>(points, rule, sums, labels);
+  if (tile == kNearGround) {
+    labelVector<kNearGround>(points, rule, sums, labels);
+  } else if (tile == kElsewhere) {
+    labelVector<kElsewhere>(points, rule, sums, labels);
+  } else {
+    labelVector<kSmeared>(points, rule, sums, labels);
+  }
 }
 
 template <bool kSeparable, typename Pixel>
 HWY_INLINE LabelSums labelImage(const ImageInput& input, const LabelRule& rule,
-                                const std::uint8_t* near_ground, std::uint8_t* labels) {
+                                const std::uint8_t* tile_kinds, std::uint8_t* labels) {
   const Floats d;
   const VectorRule vector_rule(rule);
   const ReadingRange range = input.range;
@@ -87,7 +99,7 @@ HWY_INLINE LabelSums labelImage(const ImageInput& input, const LabelRule& rule,
   const int columns = (width + kTileSize - 1) / kTileSize;
   LabelSums total;
   for (int v = 0; v < input.depth.height; ++v, labels += width) {
-    const std::uint8_t* tiles = near_ground + static_cast<std::ptrdiff_t>(v / kTileSize) * columns;
+    const std::uint8_t* tiles = tile_kinds + static_cast<std::ptrdiff_t>(v / kTileSize) * columns;
     const auto row = pixelRow<kSeparable, Pixel>(input, 0, v);
     VectorSums sums{hn::Zero(d), hn::Zero(d)};
     for (int u = 0; u < whole; u += step) {
@@ -111,15 +123,15 @@ HWY_INLINE LabelSums labelImage(const ImageInput& input, const LabelRule& rule,
   return total;
 }
 
-LabelSums labelAll(const ImageInput& input, const LabelRule& rule, const std::uint8_t* near_ground,
+LabelSums labelAll(const ImageInput& input, const LabelRule& rule, const std::uint8_t* tile_kinds,
                    std::uint8_t* labels) {
   const bool separable = input.rays.separable();
   if (input.depth.type == DepthView::Type::kUint16) {
-    return separable ? labelImage<true, std::uint16_t>(input, rule, near_ground, labels)
-                     : labelImage<false, std::uint16_t>(input, rule, near_ground, labels);
+    return separable ? labelImage<true, std::uint16_t>(input, rule, tile_kinds, labels)
+                     : labelImage<false, std::uint16_t>(input, rule, tile_kinds, labels);
   }
-  return separable ? labelImage<true, float>(input, rule, near_ground, labels)
-                   : labelImage<false, float>(input, rule, near_ground, labels);
+  return separable ? labelImage<true, float>(input, rule, tile_kinds, labels)
+                   : labelImage<false, float>(input, rule, tile_kinds, labels);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -132,8 +144,8 @@ namespace dominant_plane_detection {
 HWY_EXPORT(labelAll);
 
 LabelSums runLabelKernel(const ImageInput& input, const LabelRule& rule,
-                         const std::uint8_t* near_ground, std::uint8_t* labels) {
-  return HWY_DYNAMIC_DISPATCH(labelAll)(input, rule, near_ground, labels);
+                         const std::uint8_t* tile_kinds, std::uint8_t* labels) {
+  return HWY_DYNAMIC_DISPATCH(labelAll)(input, rule, tile_kinds, labels);
 }
 
 }  // namespace dominant_plane_detection

@@ -77,6 +77,19 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
         p.ground_band.offset);
   visit(Info{"ground_band_sigmas", "-", 0, 100, "largest height of a ground pixel, in sigma(z)"},
         p.ground_band.sigmas);
+  visit(Info{"local_error_constant", "m", 0.00001, 0.1,
+             "constant part of the rms of 4 x 4 pixels over the ground about them"},
+        p.local_error.constant);
+  visit(Info{"local_error_quadratic", "1/m", 0, 0.1,
+             "rms of 4 x 4 pixels over the ground about them per squared depth"},
+        p.local_error.quadratic);
+  visit(Info{"false_alarm_rate", "1/image", 0, 1000,
+             "of low obstacles, were errors normal; 0: the ground band alone decides"},
+        p.false_alarm_rate);
+  visit(Info{"min_obstacle_height", "m", 0, 1, "lowest obstacle within the ground band"},
+        p.min_obstacle_height);
+  visit(Info{"min_obstacle_width", "m", 0, 1, "narrowest obstacle within the ground band"},
+        p.min_obstacle_width);
   visit(Info{"min_patch", "px", 0, 1000000,
              "smallest connected piece of ground, if the image had 640 x 480 pixels"},
         p.min_patch);

@@ -12,7 +12,7 @@
 namespace dominant_plane_detection {
 namespace {
 
-const SegmentationLimits kLimits{NoiseModel{0.002, 1.425e-3}, DepthThreshold{0.0, 3.0}};
+const SegmentationLimits kLimits{NoiseModel{0.002, 1.425e-3}, DepthThreshold{0.0, 3.0}, {}};
 constexpr ReadingRange kRange{1.0F, 0.5F, 4.0F};
 
 struct Size {

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/image_kernel.h"
+#include "core/label_kernel.h"
+
+namespace dominant_plane_detection {
+
+/// [px] side of the square blocks: fine enough that a box of 12 cm still fills some at 3 m.
+constexpr int kBlockSize = 4;
+
+/// Heights over a plane in each image block, row-major. Blocks at the right and lower border may be
+/// partly outside the image.
+struct BlockHeights {
+  int columns = 0;           ///< [#]
+  int rows = 0;              ///< [#]
+  std::vector<float> sum;    ///< [m] of the heights of the readings, cut at the band of the rule
+  std::vector<float> count;  ///< [#] readings
+  std::vector<std::uint8_t> tall;  ///< 1 where half of the pixels are beyond twice the band
+  /// 1 where less than half of the pixels are within it: something tall, or nothing to be read.
+  std::vector<std::uint8_t> off;
+
+  std::size_t size() const {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
+};
+
+/// Reads the whole image once.
+/// @param blocks resized to the image and overwritten.
+void computeBlockHeights(const ImageInput& input, const LabelRule& rule, BlockHeights& blocks);
+
+}  // namespace dominant_plane_detection

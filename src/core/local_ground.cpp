@@ -1,0 +1,252 @@
+#include "core/local_ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/tile_moments.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+constexpr std::size_t kTileLevel = 1;  // whose blocks are the tiles
+constexpr int kReach = 3;              // [blocks] of a window to either side
+constexpr float kWindow = (2 * kReach + 1) * (2 * kReach + 1);
+constexpr float kClip = 2.5F;       // [-] in local errors
+constexpr float kFirstClip = 4.0F;  // [-] of the first look, against the plane itself
+/// [-] Share of a window that tells a height; with less, that of the level before stays.
+constexpr float kMinSupport = 0.25F;
+
+/// Rows of blocks from `first` up to and without `end`.
+struct Rows {
+  int first, end;
+};
+
+/// Sums over the windows of some rows; what is outside the image counts 0.
+/// @param column_sum is overwritten.
+void sumWindows(const std::vector<float>& values, int columns, int rows, Rows range,
+                std::vector<float>& column_sum, std::vector<float>& sums) {
+  const auto width = static_cast<std::size_t>(columns);
+  column_sum.assign(width + 2 * kReach, 0.0F);
+  sums.resize(values.size());
+  const auto row = [&](int y) { return values.data() + static_cast<std::size_t>(y) * width; };
+  float* inside = column_sum.data() + kReach;
+  const int before = range.first - kReach;
+  for (int y = before - kReach; y < range.end; ++y) {
+    if (y + kReach < rows && y + kReach >= std::max(before, 0)) {
+      const float* enters = row(y + kReach);
+      for (std::size_t x = 0; x < width; ++x) inside[x] += enters[x];
+    }
+    if (y - kReach - 1 >= std::max(before, 0)) {
+      const float* leaves = row(y - kReach - 1);
+      for (std::size_t x = 0; x < width; ++x) inside[x] -= leaves[x];
+    }
+    if (y < range.first) continue;
+    float* out = sums.data() + static_cast<std::size_t>(y) * width;
+    const float* from = column_sum.data();
+    for (std::size_t x = 0; x < width; ++x) {
+      out[x] = from[x] + from[x + 1] + from[x + 2] + from[x + 3] + from[x + 4] + from[x + 5] +
+               from[x + 6];
+    }
+  }
+}
+
+/// [blocks] How far beyond the rows that are searched an obstacle's growth looks at the ground.
+constexpr int kBeyond = 4;
+
+Rows keptRows(const GroundLevel& level) {
+  return {std::max(level.first_row - kBeyond, 0), std::min(level.end_row + kBeyond, level.rows)};
+}
+
+/// The rows that the windows of these look at.
+Rows readRows(const GroundLevel& level) {
+  const Rows kept = keptRows(level);
+  return {std::max(kept.first - kReach, 0), std::min(kept.end + kReach, level.rows)};
+}
+
+/// @return between the four blocks about a place in units of blocks, the first one's centre at 0.
+float interpolate(const std::vector<float>& values, int columns, int rows, float x, float y) {
+  const float right = std::clamp(x, 0.0F, static_cast<float>(columns - 1));
+  const float down = std::clamp(y, 0.0F, static_cast<float>(rows - 1));
+  const int i = static_cast<int>(right), j = static_cast<int>(down);
+  const float a = right - static_cast<float>(i), b = down - static_cast<float>(j);
+  const auto at = [&](int column, int row) {
+    return values[static_cast<std::size_t>(std::min(row, rows - 1) * columns +
+                                           std::min(column, columns - 1))];
+  };
+  return (1.0F - b) * ((1.0F - a) * at(i, j) + a * at(i + 1, j)) +
+         b * ((1.0F - a) * at(i, j + 1) + a * at(i + 1, j + 1));
+}
+
+/// The plane's depth in the middle of each block; 0 above its horizon.
+void findDepths(const RayTable& rays, const LabelRule& plane, GroundLevel& level) {
+  level.depth.resize(level.size());
+  level.first_row = level.rows;
+  level.end_row = 0;
+  for (int y = 0; y < level.rows; ++y) {
+    const int v = std::min(y * level.block + level.block / 2, rays.camera().height - 1);
+    const float* ray_x = rays.x(v);
+    const float* ray_y = rays.y(v);
+    const auto alongAt = [&](int x) {
+      const int u = std::min(x * level.block + level.block / 2, rays.camera().width - 1);
+      return plane.normal[0] * ray_x[u] + plane.normal[1] * ray_y[rays.separable() ? 0 : u] +
+             plane.normal[2];
+    };
+    float* depth = level.depth.data() + level.at(0, y);
+    float farthest = 0.0F;
+    for (int x = 0; x < level.columns; ++x) {
+      const float along = alongAt(x);
+      depth[x] = along < 0.0F ? -plane.distance / along : 0.0F;
+      farthest = std::max(farthest, depth[x]);
+    }
+    if (farthest < level.min_depth) continue;
+    level.first_row = std::min(level.first_row, y);
+    level.end_row = y + 1;
+  }
+  level.first_row = std::min(level.first_row, level.end_row);
+}
+
+/// Sums of two by two blocks.
+void halve(const std::vector<float>& from, int from_columns, int from_rows, int columns, int rows,
+           std::vector<float>& to) {
+  to.assign(static_cast<std::size_t>(columns * rows), 0.0F);
+  for (int y = 0; y < from_rows; ++y) {
+    const float* in = from.data() + static_cast<std::ptrdiff_t>(y) * from_columns;
+    float* out = to.data() + static_cast<std::ptrdiff_t>(y / 2) * columns;
+    for (int x = 0; x + 1 < from_columns; x += 2) out[x / 2] += in[x] + in[x + 1];
+    if (from_columns % 2 != 0) out[columns - 1] += in[from_columns - 1];
+  }
+}
+
+}  // namespace
+
+float GroundLevel::groundAt(int u, int v) const {
+  const auto place = [&](int pixel) {
+    return (static_cast<float>(pixel) + 0.5F) / static_cast<float>(block) - 0.5F;
+  };
+  return interpolate(ground, columns, rows, place(u), place(v));
+}
+
+void LocalGround::collect(const BlockHeights& blocks) {
+  GroundLevel& finest = levels_.front();
+  finest.columns = blocks.columns;
+  finest.rows = blocks.rows;
+  finest.count = blocks.count;
+  finest.mean = blocks.sum;
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    GroundLevel& level = levels_[i];
+    level.block = kBlockSize << i;
+    if (i == 0) continue;
+    const GroundLevel& finer = levels_[i - 1];
+    level.columns = (finer.columns + 1) / 2;
+    level.rows = (finer.rows + 1) / 2;
+    halve(finer.count, finer.columns, finer.rows, level.columns, level.rows, level.count);
+    halve(finer.mean, finer.columns, finer.rows, level.columns, level.rows, level.mean);
+  }
+}
+
+/// Turns sums into means, and finds out which blocks are ground.
+/// @param near_ground of tiles; a block of the coarsest level is ground if all of its tiles are.
+void LocalGround::average(const std::vector<std::uint8_t>& near_ground, GroundLevel& level) {
+  const int tile_columns = levels_[kTileLevel].columns, tile_rows = levels_[kTileLevel].rows;
+  const auto half = 0.5F * static_cast<float>(level.block * level.block);
+  level.can_support.resize(level.size());
+  const Rows kept = readRows(level);
+  for (int y = kept.first; y < kept.end; ++y) {
+    const int top = y * level.block / kTileSize;
+    const int bottom = std::min(((y + 1) * level.block - 1) / kTileSize, tile_rows - 1);
+    const std::uint8_t* upper =
+        near_ground.data() + static_cast<std::ptrdiff_t>(top) * tile_columns;
+    const std::uint8_t* lower =
+        near_ground.data() + static_cast<std::ptrdiff_t>(bottom) * tile_columns;
+    for (int x = 0; x < level.columns; ++x) {
+      const std::size_t at = level.at(x, y);
+      const int left = x * level.block / kTileSize;
+      const int right = std::min(((x + 1) * level.block - 1) / kTileSize, tile_columns - 1);
+      const bool ground = upper[left] && upper[right] && lower[left] && lower[right];
+      const bool is_read = level.count[at] >= half;
+      level.mean[at] = is_read ? level.mean[at] / level.count[at] : 0.0F;
+      level.can_support[at] = ground && is_read ? 1.0F : 0.0F;
+    }
+  }
+}
+
+void LocalGround::smooth(GroundLevel& level, const NoiseModel& local_error, float clip) {
+  const auto constant = static_cast<float>(local_error.constant);
+  const auto quadratic = static_cast<float>(local_error.quadratic);
+  weight_.resize(level.size());
+  weighted_.resize(level.size());
+  const Rows kept = keptRows(level), read = readRows(level);
+  const std::size_t end = level.at(0, read.end);
+  // Plain pointers: the compiler cannot know that the vectors do not overlap.
+  const float* const depth = level.depth.data();
+  const float* const mean = level.mean.data();
+  const float* const support = level.can_support.data();
+  const float* const ground = level.ground.data();
+  float* const weight = weight_.data();
+  float* const weighted = weighted_.data();
+#pragma GCC ivdep
+  for (std::size_t at = level.at(0, read.first); at < end; ++at) {
+    const float limit = clip * (constant + quadratic * depth[at] * depth[at]);
+    const float counts = std::abs(mean[at] - ground[at]) < limit ? support[at] : 0.0F;
+    weight[at] = counts;
+    weighted[at] = counts * mean[at];
+  }
+  sumWindows(weight_, level.columns, level.rows, kept, column_sum_, window_weight_);
+  sumWindows(weighted_, level.columns, level.rows, kept, column_sum_, window_sum_);
+  level.support.resize(level.size());
+  for (std::size_t at = level.at(0, kept.first); at < level.at(0, kept.end); ++at) {
+    const float blocks = window_weight_[at];
+    level.support[at] = blocks / kWindow;
+    const float local = window_sum_[at] / std::max(blocks, 1.0F);
+    level.ground[at] = level.support[at] < kMinSupport ? level.ground[at] : local;
+  }
+}
+
+/// The level before is what its ground is looked for about, between its blocks linear: along a row
+/// and along a column, a block's centre is a quarter from the one and three from the other.
+void LocalGround::start(const GroundLevel* coarser, GroundLevel& level) {
+  level.ground.resize(level.size());
+  if (coarser == nullptr) {
+    std::fill(level.ground.begin(), level.ground.end(), 0.0F);
+    return;
+  }
+  const Rows read = readRows(level);
+  for (int y = read.first; y < read.end; ++y) {
+    const int near = y / 2;
+    const int other = std::clamp(y % 2 ? near + 1 : near - 1, 0, coarser->rows - 1);
+    const float* a = coarser->ground.data() + coarser->at(0, near);
+    const float* b = coarser->ground.data() + coarser->at(0, other);
+    column_sum_.resize(static_cast<std::size_t>(coarser->columns) + 2);
+    float* between = column_sum_.data() + 1;
+    for (int x = 0; x < coarser->columns; ++x) between[x] = 0.75F * a[x] + 0.25F * b[x];
+    between[-1] = between[0];
+    between[coarser->columns] = between[coarser->columns - 1];
+    float* to = level.ground.data() + level.at(0, y);
+    for (int x = 0; x < level.columns; ++x) {
+      to[x] = 0.75F * between[x / 2] + 0.25F * between[x % 2 ? x / 2 + 1 : x / 2 - 1];
+    }
+  }
+}
+
+void LocalGround::fit(const BlockHeights& blocks, const std::vector<std::uint8_t>& near_ground,
+                      const RayTable& rays, const LabelRule& plane, const NoiseModel& local_error,
+                      double min_window) {
+  collect(blocks);
+  const double focal = std::max(rays.camera().fx, rays.camera().fy);
+  for (std::size_t i = levels_.size(); i-- > 0;) {
+    GroundLevel& level = levels_[i];
+    const bool first = i + 1 == levels_.size();
+    level.min_depth = static_cast<float>(min_window * focal / ((2 * kReach + 1) * level.block));
+    findDepths(rays, plane, level);
+    if (i > 0) {  // the next level begins with it
+      level.first_row = 0;
+      level.end_row = level.rows;
+    }
+    average(near_ground, level);
+    start(first ? nullptr : &levels_[i + 1], level);
+    smooth(level, local_error, first ? kFirstClip : kClip);
+    smooth(level, local_error, kClip);
+  }
+}
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,218 @@
+#include "core/low_obstacles.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/local_ground.h"
+#include "dominant_plane_detection/detection.h"
+#include "dominant_plane_detection/dominant_plane_detector.h"
+#include "support/synthetic_depth.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+constexpr double kCameraHeight = 0.7;  // [m]
+const Eigen::Vector3d kUp = upOf(0.5);
+
+/// The depth image of a floor that is as high at each place as a function says; `forward` is the
+/// distance along the floor from below the camera, `right` across it.
+OwnedDepth<float> floorWith(const std::function<double(double right, double forward)>& height) {
+  const CameraModel camera = testCamera();
+  OwnedDepth<float> depth = planeDepth(camera, kUp, kCameraHeight);
+  const Eigen::Vector3d ahead = (Eigen::Vector3d::UnitZ() - kUp.z() * kUp).normalized();
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const double z = static_cast<double>(depth.at(u, v));
+      if (z == 0.0) continue;
+      const Eigen::Vector3d floor = z * camera.ray({u, v}).homogeneous();
+      // Low things seen from above: the ray meets them where it meets the floor, but for a little.
+      const double h = height(floor.x(), ahead.dot(floor));
+      depth.at(u, v) = static_cast<float>(z * (kCameraHeight - h) / kCameraHeight);
+    }
+  }
+  return depth;
+}
+
+bool isIn(double value, double low, double high) { return value >= low && value < high; }
+
+/// 20 cm wide and long, 1.2 m ahead.
+double box(double right, double forward, double height) {
+  return isIn(right, -0.1, 0.1) && isIn(forward, 1.1, 1.3) ? height : 0.0;
+}
+
+/// What the pixels over a place are labelled.
+struct Shares {
+  double ground = 0.0, obstacle = 0.0, unknown = 0.0;
+};
+
+Shares sharesWhere(const Detection& detection, const OwnedDepth<float>& depth,
+                   const std::function<bool(double right, double forward)>& inside) {
+  const CameraModel camera = testCamera();
+  const Eigen::Vector3d ahead = (Eigen::Vector3d::UnitZ() - kUp.z() * kUp).normalized();
+  Shares shares;
+  double all = 0.0;
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const Eigen::Vector3d ray = camera.ray({u, v}).homogeneous();
+      const double down = -kUp.dot(ray);
+      if (down <= 0.0) continue;
+      const Eigen::Vector3d floor = kCameraHeight / down * ray;
+      if (!inside(floor.x(), ahead.dot(floor))) continue;
+      const double z = static_cast<double>(depth.pixels[static_cast<std::size_t>(v * 640 + u)]);
+      if (z < 0.5 || z > 4.0) continue;
+      const Label label = detection.label(u, v);
+      shares.ground += label == Label::kGround;
+      shares.obstacle += label == Label::kObstacle;
+      shares.unknown += label == Label::kUnknown;
+      ++all;
+    }
+  }
+  return {shares.ground / all, shares.obstacle / all, shares.unknown / all};
+}
+
+Detection detectIn(const OwnedDepth<float>& depth, const Parameters& parameters = {}) {
+  return DominantPlaneDetector(parameters).detect(depth.view(), testCamera());
+}
+
+const auto kOnBox = [](double right, double forward) { return box(right, forward, 1.0) > 0.0; };
+
+TEST(LowObstacles, ABoxOfTwoCentimetresIsSeenAndItsSurroundingsAreGround) {
+  const auto depth = floorWith([](double x, double y) { return box(x, y, 0.02); });
+  const Detection detection = detectIn(depth);
+  ASSERT_TRUE(detection.found()) << detection.reason;
+  EXPECT_NEAR(detection.distance, kCameraHeight, 0.0005);
+  EXPECT_GT(sharesWhere(detection, depth, kOnBox).obstacle, 0.95);
+  const auto apart = [](double x, double y) {
+    return !(isIn(x, -0.15, 0.15) && isIn(y, 1.0, 1.4)) && isIn(x, -0.4, 0.4) && isIn(y, 0.6, 2.0);
+  };
+  EXPECT_EQ(sharesWhere(detection, depth, apart).ground, 1.0);
+}
+
+TEST(LowObstacles, WithoutARateTheBandAloneDecides) {
+  const auto depth = floorWith([](double x, double y) { return box(x, y, 0.02); });
+  Parameters parameters;
+  parameters.false_alarm_rate = 0.0;
+  EXPECT_EQ(sharesWhere(detectIn(depth, parameters), depth, kOnBox).obstacle, 0.0);
+}
+
+TEST(LowObstacles, WhatIsLowerThanTheLowestIsNoObstacle) {
+  const auto depth = floorWith([](double x, double y) { return box(x, y, 0.02); });
+  Parameters parameters;
+  parameters.min_obstacle_height = 0.03;
+  EXPECT_EQ(sharesWhere(detectIn(depth, parameters), depth, kOnBox).obstacle, 0.0);
+}
+
+TEST(LowObstacles, WhatIsNarrowerThanTheNarrowestIsNoObstacle) {
+  const auto depth = floorWith([](double x, double y) { return box(x, y, 0.02); });
+  Parameters parameters;
+  parameters.min_obstacle_width = 0.3;
+  EXPECT_EQ(sharesWhere(detectIn(depth, parameters), depth, kOnBox).obstacle, 0.0);
+}
+
+/// The wave is a third as high as the box, which the plane alone does not tell from the noise.
+TEST(LowObstacles, AWaveOfTheSensorIsGroundAndABoxOnItIsSeen) {
+  const auto wave = [](double x, double y) {
+    return 0.003 * std::sin(6.0 * x) * std::cos(5.0 * y);
+  };
+  const auto depth = floorWith([&](double x, double y) { return wave(x, y) + box(x, y, 0.02); });
+  const Detection detection = detectIn(depth);
+  ASSERT_TRUE(detection.found()) << detection.reason;
+  EXPECT_GT(sharesWhere(detection, depth, kOnBox).obstacle, 0.9);
+  const auto apart = [](double x, double y) {
+    return !(isIn(x, -0.15, 0.15) && isIn(y, 1.0, 1.4)) && isIn(x, -0.4, 0.4) && isIn(y, 0.6, 2.0);
+  };
+  EXPECT_GT(sharesWhere(detection, depth, apart).ground, 0.999);
+}
+
+TEST(LowObstacles, NothingIsSaidNextToWhatIsTall) {
+  // A wall half a metre high with a foot that rises by 6 mm over its last 3 cm, as smeared depth
+  // does.
+  const auto depth = floorWith([](double, double y) {
+    return y > 1.53 ? 0.3 : std::clamp((y - 1.50) / 0.03, 0.0, 1.0) * 0.006;
+  });
+  const Detection detection = detectIn(depth);
+  ASSERT_TRUE(detection.found()) << detection.reason;
+  const auto foot = [](double x, double y) { return isIn(x, -0.4, 0.4) && isIn(y, 1.50, 1.525); };
+  const Shares shares = sharesWhere(detection, depth, foot);
+  EXPECT_EQ(shares.obstacle, 0.0);
+}
+
+TEST(LowObstacles, EvidenceFollowsFromTheRateOfFalseAlarms) {
+  // One-sided tails of the normal distribution: 0.00135 beyond 3, 3.167e-5 beyond 4.
+  EXPECT_NEAR(LowObstacles::evidence(1000, 1.35), 3.0, 0.001);
+  EXPECT_NEAR(LowObstacles::evidence(100000, 3.1671), 4.0, 0.001);
+  EXPECT_NEAR(LowObstacles::evidence(10, 1000.0), 0.0, 1e-6);
+}
+
+/// Heights of all blocks by a function of their column and row.
+BlockHeights blocksOf(int columns, int rows, const std::function<double(int, int)>& height) {
+  BlockHeights blocks;
+  blocks.columns = columns;
+  blocks.rows = rows;
+  blocks.count.assign(blocks.size(), 16.0F);
+  blocks.off.assign(blocks.size(), 0);
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      blocks.sum.push_back(16.0F * static_cast<float>(height(x, y)));
+    }
+  }
+  return blocks;
+}
+
+TEST(LocalGround, FollowsASlopeAndLeavesOutWhatStandsOnIt) {
+  const CameraModel camera = testCamera();
+  RayTable rays;
+  rays.build(camera);
+  const Eigen::Vector3f up = kUp.cast<float>();
+  const LabelRule plane{{up.x(), up.y(), up.z()}, 0.7F, 0.01F, 0.007F};
+  const auto slope = [](int x, int y) { return 2e-5 * (x - 80) - 3e-5 * (y - 60); };
+  const auto isOn = [](int x, int y) { return isIn(x, 70, 76) && isIn(y, 100, 106); };
+  const BlockHeights blocks =
+      blocksOf(160, 120, [&](int x, int y) { return slope(x, y) + (isOn(x, y) ? 0.01 : 0.0); });
+  LocalGround ground;
+  const std::vector<std::uint8_t> everywhere(80 * 60, 1);
+  ground.fit(blocks, everywhere, rays, plane, {0.0005, 0.0012}, 0.01);
+  for (const GroundLevel& level : ground.levels()) {
+    SCOPED_TRACE(level.block);
+    const double side = level.block;
+    for (int y = 4; y + 4 < level.rows; ++y) {
+      for (int x = 4; x + 4 < level.columns; ++x) {
+        const std::size_t at = level.at(x, y);
+        if (level.depth[at] <= 0.0F) continue;
+        const double truth =
+            2e-5 * ((x + 0.5) * side / 4.0 - 80.5) - 3e-5 * ((y + 0.5) * side / 4.0 - 60.5);
+        EXPECT_NEAR(static_cast<double>(level.ground[at]), truth, 6e-4) << x << ", " << y;
+        EXPECT_GT(level.support[at], 0.25F);
+      }
+    }
+    EXPECT_NEAR(static_cast<double>(level.groundAt(320, 300)), slope(80, 75), 1e-4);
+  }
+  // Not even the smallest window is filled by it: its height is not taken for ground.
+  const GroundLevel& finest = ground.levels()[0];
+  EXPECT_NEAR(static_cast<double>(finest.ground[finest.at(73, 103)]), slope(73, 103), 2e-4);
+}
+
+TEST(LocalGround, RowsThatAreTooNearForASmallWindowAreLeftToLargerOnes) {
+  const CameraModel camera = testCamera();
+  RayTable rays;
+  rays.build(camera);
+  const Eigen::Vector3f up = kUp.cast<float>();
+  const LabelRule plane{{up.x(), up.y(), up.z()}, 0.7F, 0.01F, 0.007F};
+  LocalGround ground;
+  const std::vector<std::uint8_t> everywhere(80 * 60, 1);
+  ground.fit(blocksOf(160, 120, [](int, int) { return 0.0; }), everywhere, rays, plane,
+             {0.0005, 0.0012}, 0.12);
+  // 7 blocks of 4 px are 12 cm wide at 0.12 m * 525 / 28 = 2.25 m.
+  const GroundLevel& finest = ground.levels()[0];
+  EXPECT_NEAR(finest.min_depth, 2.25F, 1e-4F);
+  ASSERT_GT(finest.end_row, finest.first_row);
+  EXPECT_GE(finest.depth[finest.at(80, finest.end_row - 1)], 2.25F);
+  EXPECT_LT(finest.depth[finest.at(80, finest.end_row)], 2.25F);
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection
