@@ -11,11 +11,13 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "support/floor_objects.h"
 #include "support/recordings.h"
+#include "tools/yaml_files.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -150,10 +152,11 @@ void print(const ReferenceSet& set, const Contestant& contestant) {
   }
 }
 
-void evaluate(const ReferenceSet& set, const std::string& pictures) {
+void evaluate(const ReferenceSet& set, const std::string& sensor, const std::string& pictures) {
   Parameters parameters;
   parameters.range_min = set.range_min;
   parameters.range_max = set.range_max;
+  loadParameters(std::string(DPD_SOURCE) + "/config/sensors/" + sensor + ".yaml", parameters);
   DominantPlaneDetector detector(parameters);
   std::vector<Contestant> contestants;
   contestants.push_back(
@@ -204,12 +207,13 @@ int main(int argc, char** argv) {
     std::printf(" %g-%g", dpd::kDistances[i], dpd::kDistances[i + 1]);
   }
   std::printf("\n");
-  for (const auto& load : {dpd::loadRobotLab, dpd::loadCabinet}) {
-    const dpd::ReferenceSet set = load();
+  const std::pair<dpd::ReferenceSet, const char*> recordings[] = {
+      {dpd::loadRobotLab(), "realsense_d4xx"}, {dpd::loadCabinet(), "xtion"}};
+  for (const auto& [set, sensor] : recordings) {
     if (set.images.empty()) {
       std::fprintf(stderr, "no recordings in %s\n", dpd::recordingsFolder().c_str());
       return 1;
     }
-    dpd::evaluate(set, argc > 1 ? argv[1] : "");
+    dpd::evaluate(set, sensor, argc > 1 ? argv[1] : "");
   }
 }

@@ -32,6 +32,7 @@ constexpr const char* kDescription =
 struct Options {
   SourceArguments source;
   std::string output;
+  bool labels = false;
 };
 
 void declare(CLI::App& app, Options& options) {
@@ -39,6 +40,8 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--output", options.output, "folder for the results, made where it is missing")
       ->required()
       ->type_name("DIR");
+  app.add_flag("--labels", options.labels,
+               "also writes labels/: 0 unknown, 1 ground, 2 obstacle, 3 drop-off");
 }
 
 /// Prints errors at once, or after the progress bar where there is one, and remembers that there
@@ -94,7 +97,7 @@ void process(FrameSource& source, DominantPlaneDetector& detector, ResultWriter&
 int run(const Options& options) {
   DominantPlaneDetector detector(options.source.readParameters());
   const Inputs inputs = openInputs(options.source.inputs, options.source.readSourceOptions());
-  ResultWriter writer(options.output);
+  ResultWriter writer(options.output, options.labels);
   bool failed = false;
   {
     Report report(inputs.frames());

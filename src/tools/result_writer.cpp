@@ -13,11 +13,15 @@
 namespace dominant_plane_detection {
 namespace {
 
-cv::Mat groundMask(const Detection& detection) {
+/// @return the labels in place.
+cv::Mat labelImage(const Detection& detection) {
   // OpenCV takes no const data; nothing writes to it.
-  const cv::Mat labels(detection.image_height, detection.image_width, CV_8UC1,
-                       const_cast<std::uint8_t*>(detection.labels.data()));
-  return labels == static_cast<std::uint8_t>(Label::kGround);
+  return {detection.image_height, detection.image_width, CV_8UC1,
+          const_cast<std::uint8_t*>(detection.labels.data())};
+}
+
+cv::Mat groundMask(const Detection& detection) {
+  return labelImage(detection) == static_cast<std::uint8_t>(Label::kGround);
 }
 
 /// @return a text as a field of a CSV file (RFC 4180).
@@ -37,8 +41,10 @@ std::string reasonOf(const Frame& frame, const Detection& detection) {
 
 }  // namespace
 
-ResultWriter::ResultWriter(const std::string& folder) : folder_(folder) {
+ResultWriter::ResultWriter(const std::string& folder, bool labels)
+    : folder_(folder), labels_(labels) {
   for (const char* name : {"/masks", "/overlays"}) makeFolder(folder + name);
+  if (labels) makeFolder(folder + "/labels");
   planes_.open(folder + "/planes.csv");
   if (!planes_) throw std::runtime_error(folder + "/planes.csv: could not be written");
   planes_ << "frame,state,normal_x,normal_y,normal_z,distance,mse,inliers,ms,reason\n";
@@ -57,6 +63,7 @@ void ResultWriter::write(const Frame& frame, const Detection& detection, double 
           << quoted(reasonOf(frame, detection)) << '\n';
   if (!planes_.flush()) throw std::runtime_error(folder_ + "/planes.csv: could not be written");
   writePng(folder_ + "/masks", frame.name, groundMask(detection));
+  if (labels_) writePng(folder_ + "/labels", frame.name, labelImage(detection));
   cv::Mat picture = greyPicture(frame.depth);
   paintOverlay(detection, picture);
   writePng(folder_ + "/overlays", frame.name, picture);

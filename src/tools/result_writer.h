@@ -10,12 +10,13 @@
 
 namespace dominant_plane_detection {
 
-/// Writes planes.csv, masks/ and overlays/ of a run, and keeps count for its summary.
+/// Writes planes.csv, masks/, overlays/ and, if asked, labels/ of a run, and keeps count for its
+/// summary.
 class ResultWriter {
  public:
   /// @param folder made where it is missing; files of an earlier run are overwritten.
   /// @throw std::runtime_error where it cannot be written.
-  explicit ResultWriter(const std::string& folder);
+  ResultWriter(const std::string& folder, bool labels);
 
   /// @param ms [ms] time of the detector alone.
   void write(const Frame& frame, const Detection& detection, double ms);
@@ -31,6 +32,7 @@ class ResultWriter {
   };
 
   std::string folder_;
+  bool labels_;  ///< whether labels/ is written
   std::ofstream planes_;
   std::map<std::string, Outcome> outcomes_;  ///< by the state's name
   std::vector<double> ms_;

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "sensor_profiles.h"
 #include "yaml_files.h"
 
 namespace dominant_plane_detection {
@@ -22,6 +23,10 @@ void declareSource(CLI::App& app, SourceArguments& arguments, bool required) {
   app.add_option("--depth-scale", arguments.depth_scale, "units per metre of 16-bit PNG images")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--sensor", arguments.sensor,
+                 "profile of the depth camera's errors: generic (default), kinect_v1,\n"
+                 "realsense_d4xx, xtion, or a YAML file")
+      ->type_name("NAME|FILE");
   app.add_option("--params", arguments.params, "detection parameters, the nodelet's YAML")
       ->type_name("FILE");
   app.add_option("--set", arguments.settings, "one detection parameter; may be repeated")
@@ -37,6 +42,7 @@ void declareSource(CLI::App& app, SourceArguments& arguments, bool required) {
 
 Parameters SourceArguments::readParameters() const {
   Parameters parameters;
+  if (!sensor.empty()) loadParameters(findSensorProfile(sensor), parameters);
   if (!params.empty()) loadParameters(params, parameters);
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');

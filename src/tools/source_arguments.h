@@ -16,12 +16,13 @@ struct SourceArguments {
   std::vector<double> camera;
   std::string camera_info;
   double depth_scale = 1000.0;
+  std::string sensor;
   std::string params;
   std::vector<std::string> settings;
   std::vector<double> range;
   std::string algorithm;
 
-  /// Later ones win: file, --set, --range, --algorithm.
+  /// Later ones win: --sensor, --params, --set, --range, --algorithm.
   /// @throw std::invalid_argument, std::runtime_error
   Parameters readParameters() const;
   /// @throw std::runtime_error

@@ -258,6 +258,41 @@ TEST_F(DetectPlanes, ParametersFromFileAndCommandLine) {
   EXPECT_EQ(std::stoi(planes().at("0000")[7]), near);
 }
 
+TEST_F(DetectPlanes, LabelsAreWrittenWhenAskedFor) {
+  const std::string image = path("images/depth/0000.png") + kCamera;
+  EXPECT_EQ(detect(image).status, 0);
+  EXPECT_FALSE(fs::exists(path("out/labels")));
+  EXPECT_EQ(detect(image + "--labels").status, 0);
+  const cv::Mat labels = cv::imread(path("out/labels/0000.png"), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(labels.type(), CV_8UC1);
+  const cv::Mat mask = cv::imread(path("out/masks/0000.png"), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(cv::countNonZero((labels == 1) != mask), 0);
+  EXPECT_EQ(labels.at<std::uint8_t>(470, 320), 1);
+  EXPECT_GT(cv::countNonZero(labels == 2), 10000) << "the bin";
+}
+
+/// A profile is found by its name from wherever the program is started, and before --set.
+TEST_F(DetectPlanes, SensorProfilesByNameAndByFile) {
+  const std::string image = path("images/depth/0000.png") + kCamera;
+  const auto inliers = [&](const std::string& arguments) {
+    const Outcome outcome = detect(image + arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+    return planes().at("0000")[7];
+  };
+  const std::string generic = inliers("");
+  EXPECT_EQ(inliers("--sensor generic"), generic);
+  for (const char* name : {"kinect_v1", "realsense_d4xx", "xtion"}) {
+    EXPECT_EQ(detect(image + "--sensor " + name).status, 0) << name;
+  }
+  std::ofstream(path("mine.yaml")) << "range_max: 1.0\n";
+  EXPECT_EQ(inliers("--sensor " + path("mine.yaml")), inliers("--range 0.5,1.0"));
+  EXPECT_EQ(inliers("--sensor " + path("mine.yaml") + " --set range_max=4.0"), generic);
+  const Outcome wrong = detect(image + "--sensor kinect");
+  EXPECT_NE(wrong.status, 0);
+  EXPECT_NE(wrong.text.find("generic, kinect_v1, realsense_d4xx, xtion"), std::string::npos)
+      << wrong.text;
+}
+
 TEST_F(DetectPlanes, UsageErrorsSayWhatWasExpected) {
   const std::string image = path("images/depth/0000.png") + " ";
   const auto expectError = [&](const std::string& arguments, const char* words) {
