@@ -106,11 +106,36 @@ TEST(LowObstacles, WhatIsLowerThanTheLowestIsNoObstacle) {
   EXPECT_EQ(sharesWhere(detectIn(depth, parameters), depth, kOnBox).obstacle, 0.0);
 }
 
+/// 6 cm wide and long.
 TEST(LowObstacles, WhatIsNarrowerThanTheNarrowestIsNoObstacle) {
-  const auto depth = floorWith([](double x, double y) { return box(x, y, 0.02); });
+  const auto kOnIt = [](double x, double y) { return isIn(x, -0.03, 0.03) && isIn(y, 1.1, 1.16); };
+  const auto depth = floorWith([&](double x, double y) { return kOnIt(x, y) ? 0.02 : 0.0; });
+  EXPECT_EQ(sharesWhere(detectIn(depth), depth, kOnIt).obstacle, 0.0);
   Parameters parameters;
-  parameters.min_obstacle_width = 0.3;
-  EXPECT_EQ(sharesWhere(detectIn(depth, parameters), depth, kOnBox).obstacle, 0.0);
+  parameters.min_obstacle_width = 0.05;
+  EXPECT_GT(sharesWhere(detectIn(depth, parameters), depth, kOnIt).obstacle, 0.9);
+}
+
+/// A box whose sides slope over 2 cm.
+TEST(LowObstacles, WhatIsNeitherOnItNorOnTheGroundIsUnknown) {
+  const auto height = [](double x, double y) {
+    return 0.02 * std::clamp((0.12 - std::max(std::abs(x), std::abs(y - 1.2))) / 0.02, 0.0, 1.0);
+  };
+  const auto depth = floorWith(height);
+  const Detection detection = detectIn(depth);
+  const auto between = [&](double low, double high) {
+    return sharesWhere(detection, depth,
+                       [&](double x, double y) { return isIn(height(x, y), low, high); });
+  };
+  // It belongs to the box from 8 mm on, and to the plane up to 1.25 sigma, 5.9 mm.
+  EXPECT_EQ(between(0.0085, 0.1).obstacle, 1.0);
+  EXPECT_EQ(between(0.0065, 0.0075).unknown, 1.0);
+  EXPECT_EQ(between(0.001, 0.005).ground, 1.0);
+  std::size_t ground = 0;
+  for (const std::uint8_t label : detection.labels) {
+    ground += label == static_cast<std::uint8_t>(Label::kGround);
+  }
+  EXPECT_EQ(detection.inliers, ground);
 }
 
 /// The wave is a third as high as the box, which the plane alone does not tell from the noise.
@@ -128,17 +153,19 @@ TEST(LowObstacles, AWaveOfTheSensorIsGroundAndABoxOnItIsSeen) {
   EXPECT_GT(sharesWhere(detection, depth, apart).ground, 0.999);
 }
 
+/// A plate of 22 mm from side to side, 7 cm long: an obstacle, unless it is the foot of a wall,
+/// where a camera smears depth.
 TEST(LowObstacles, NothingIsSaidNextToWhatIsTall) {
-  // A wall half a metre high with a foot that rises by 6 mm over its last 3 cm, as smeared depth
-  // does.
-  const auto depth = floorWith([](double, double y) {
-    return y > 1.53 ? 0.3 : std::clamp((y - 1.50) / 0.03, 0.0, 1.0) * 0.006;
-  });
-  const Detection detection = detectIn(depth);
+  const auto plate = [](double y) { return isIn(y, 1.50, 1.57) ? 0.022 : 0.0; };
+  const auto onPlate = [&](double x, double y) { return isIn(x, -0.3, 0.3) && plate(y) > 0.0; };
+  const auto alone = floorWith([&](double, double y) { return plate(y); });
+  EXPECT_GT(sharesWhere(detectIn(alone), alone, onPlate).obstacle, 0.9);
+  const auto wall = floorWith([&](double, double y) { return y >= 1.57 ? 0.3 : plate(y); });
+  const Detection detection = detectIn(wall);
   ASSERT_TRUE(detection.found()) << detection.reason;
-  const auto foot = [](double x, double y) { return isIn(x, -0.4, 0.4) && isIn(y, 1.50, 1.525); };
-  const Shares shares = sharesWhere(detection, depth, foot);
-  EXPECT_EQ(shares.obstacle, 0.0);
+  EXPECT_EQ(sharesWhere(detection, wall, onPlate).obstacle, 0.0);
+  const auto foot = [](double x, double y) { return isIn(x, -0.3, 0.3) && isIn(y, 1.53, 1.565); };
+  EXPECT_EQ(sharesWhere(detection, wall, foot).unknown, 1.0);
 }
 
 TEST(LowObstacles, EvidenceFollowsFromTheRateOfFalseAlarms) {
