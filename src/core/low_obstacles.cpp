@@ -13,7 +13,9 @@ namespace {
 /// [-] Of its height, what a pixel reaches that belongs to an obstacle; and what one at its edge
 /// has to stay below to be ground.
 constexpr float kOnIt = 0.4F;
-constexpr float kOnGround = 0.1F;
+constexpr float kOnGround = 0.2F;
+/// [-] Of the narrow band: what is as near to the plane stays ground.
+constexpr float kOnPlane = 0.6F;
 constexpr int kEdge = 3;  // [px]
 /// [-] Share of a window that has to be ground, for evidence of something that stands on it.
 constexpr float kMinSupport = 0.4F;
@@ -49,21 +51,16 @@ std::size_t LowObstacles::indexOf(Pixel pixel) const {
          static_cast<std::size_t>(pixel.u);
 }
 
-/// @return [m] the height over the plane; nothing without a reading in the working range.
-std::optional<float> LowObstacles::heightOf(Pixel pixel) const {
+/// @return [m] the height over the plane of a pixel that may stand on it; nothing without a reading
+/// in the working range, or on the plane.
+std::optional<float> LowObstacles::heightOff(Pixel pixel) const {
   const float z = metresAt(input_->depth, pixel.u, pixel.v);
   if (!(z >= input_->range.min && z <= input_->range.max)) return std::nullopt;
   const Eigen::Vector3f ray = input_->rays.ray(pixel.u, pixel.v);
   const float along = rule_.normal[0] * ray.x() + rule_.normal[1] * ray.y() + rule_.normal[2];
   const float height = z * along + rule_.distance;
-  if (std::isnan(height)) return std::nullopt;
+  if (!(height > kOnPlane * (rule_.narrow + rule_.narrow_z2 * z * z))) return std::nullopt;
   return height;
-}
-
-/// @return whether a pixel at that height is within the narrow band.
-bool LowObstacles::isOnPlane(Pixel pixel, float height) const {
-  const float z = metresAt(input_->depth, pixel.u, pixel.v);
-  return std::abs(height) <= rule_.narrow + rule_.narrow_z2 * z * z;
 }
 
 void LowObstacles::change(Pixel pixel, float height, std::uint8_t label,
@@ -189,7 +186,7 @@ bool LowObstacles::joins(const GroundLevel& level, Pixel pixel) {
   }
   const float reach = reachOf(level, pixel);
   if (reach == 0.0F) return false;
-  const std::optional<float> height = heightOf(pixel);
+  const std::optional<float> height = heightOff(pixel);
   const bool on_it = height && *height - level.groundAt(pixel.u, pixel.v) > kOnIt * reach;
   seen_[indexOf(pixel)] = on_it ? kTaken : kRefused;
   looked_at_.push_back(pixel);
@@ -231,7 +228,7 @@ bool LowObstacles::isInside(Pixel pixel) const {
 /// Labels the candidate, and its edge.
 void LowObstacles::write(const GroundLevel& level, std::vector<std::uint8_t>& labels) {
   for (const Pixel& pixel : pixels_) {
-    change(pixel, heightOf(pixel).value_or(0.0F), kObstacleLabel, labels);
+    change(pixel, heightOff(pixel).value_or(0.0F), kObstacleLabel, labels);
   }
   for (const Pixel& pixel : pixels_) {
     if (isInside(pixel)) continue;
@@ -241,9 +238,8 @@ void LowObstacles::write(const GroundLevel& level, std::vector<std::uint8_t>& la
     for (int v = std::max(pixel.v - kEdge, 0); v <= last_v; ++v) {
       for (int u = std::max(pixel.u - kEdge, 0); u <= last_u; ++u) {
         if (labels[indexOf({u, v})] != kGroundLabel) continue;
-        const std::optional<float> height = heightOf({u, v});
-        if (!height || isOnPlane({u, v}, *height)) continue;
-        if (*height - level.groundAt(u, v) <= floor) continue;
+        const std::optional<float> height = heightOff({u, v});
+        if (!height || *height - level.groundAt(u, v) <= floor) continue;
         change({u, v}, *height, kUnknownLabel, labels);
       }
     }

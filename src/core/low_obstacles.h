@@ -34,7 +34,8 @@ struct GroundLoss {
 /// 0.4 of its height; where it is narrower than `min_width` it is left alone, as the bumps of the
 /// local error are. A pixel within the narrow band, sigma(z), stays what it is: neither is it an
 /// obstacle nor at the edge of one. Pixels at its edge
-/// that are neither on it, nor on the ground, nor within the narrow band are unknown.
+/// that are neither on it nor on the ground are unknown. What is within 0.6 of the narrow band is
+/// never either: it is on the plane itself.
 ///
 /// Next to what is tall, and to where nothing can be read, depth is smeared over some pixels:
 /// there is no evidence in such tiles and those about them.
@@ -72,8 +73,7 @@ class LowObstacles {
   bool isInside(Pixel pixel) const;
   void write(const GroundLevel& level, std::vector<std::uint8_t>& labels);
   void change(Pixel pixel, float height, std::uint8_t label, std::vector<std::uint8_t>& labels);
-  std::optional<float> heightOf(Pixel pixel) const;
-  bool isOnPlane(Pixel pixel, float height) const;
+  std::optional<float> heightOff(Pixel pixel) const;
   std::size_t indexOf(Pixel pixel) const;
 
   const ImageInput* input_ = nullptr;

@@ -127,10 +127,10 @@ TEST(LowObstacles, WhatIsNeitherOnItNorOnTheGroundIsUnknown) {
     return sharesWhere(detection, depth,
                        [&](double x, double y) { return isIn(height(x, y), low, high); });
   };
-  // It belongs to the box from 8 mm on, and to the plane up to 1.25 sigma, 5.9 mm.
+  // It belongs to the box from 8 mm on, and to the ground up to 4 mm.
   EXPECT_EQ(between(0.0085, 0.1).obstacle, 1.0);
-  EXPECT_EQ(between(0.0065, 0.0075).unknown, 1.0);
-  EXPECT_EQ(between(0.001, 0.005).ground, 1.0);
+  EXPECT_EQ(between(0.0045, 0.0075).unknown, 1.0);
+  EXPECT_EQ(between(0.001, 0.0035).ground, 1.0);
   std::size_t ground = 0;
   for (const std::uint8_t label : detection.labels) {
     ground += label == static_cast<std::uint8_t>(Label::kGround);
