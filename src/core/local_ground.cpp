@@ -182,23 +182,32 @@ void LocalGround::smooth(GroundLevel& level, const NoiseModel& local_error, floa
   const float* const mean = level.mean.data();
   const float* const support = level.can_support.data();
   const float* const ground = level.ground.data();
+  // A value is read before it is chosen: then there is no jump, and the loops become vectors.
   float* const weight = weight_.data();
   float* const weighted = weighted_.data();
 #pragma GCC ivdep
   for (std::size_t at = level.at(0, read.first); at < end; ++at) {
     const float limit = clip * (constant + quadratic * depth[at] * depth[at]);
-    const float counts = std::abs(mean[at] - ground[at]) < limit ? support[at] : 0.0F;
+    const float has_a_say = support[at];
+    const float counts = std::abs(mean[at] - ground[at]) < limit ? has_a_say : 0.0F;
     weight[at] = counts;
     weighted[at] = counts * mean[at];
   }
   sumWindows(weight_, level.columns, level.rows, kept, column_sum_, window_weight_);
   sumWindows(weighted_, level.columns, level.rows, kept, column_sum_, window_sum_);
   level.support.resize(level.size());
-  for (std::size_t at = level.at(0, kept.first); at < level.at(0, kept.end); ++at) {
-    const float blocks = window_weight_[at];
-    level.support[at] = blocks / kWindow;
-    const float local = window_sum_[at] / std::max(blocks, 1.0F);
-    level.ground[at] = level.support[at] < kMinSupport ? level.ground[at] : local;
+  const float* const window_weight = window_weight_.data();
+  const float* const window_sum = window_sum_.data();
+  float* const share = level.support.data();
+  float* const new_ground = level.ground.data();
+  const std::size_t last = level.at(0, kept.end);
+#pragma GCC ivdep
+  for (std::size_t at = level.at(0, kept.first); at < last; ++at) {
+    const float blocks = window_weight[at];
+    const float before = new_ground[at];
+    const float local = window_sum[at] / (blocks < 1.0F ? 1.0F : blocks);
+    share[at] = blocks / kWindow;
+    new_ground[at] = blocks < kMinSupport * kWindow ? before : local;
   }
 }
 
