@@ -37,17 +37,21 @@ pcl_msgs::ModelCoefficientsPtr coefficientsMessage(const std_msgs::Header& heade
   return message;
 }
 
-sensor_msgs::ImagePtr maskMessage(const std_msgs::Header& header, const Detection& detection) {
+sensor_msgs::ImagePtr labelsMessage(const std_msgs::Header& header, const Detection& detection) {
   auto message = boost::make_shared<sensor_msgs::Image>();
   message->header = header;
   message->encoding = sensor_msgs::image_encodings::MONO8;
   message->width = static_cast<std::uint32_t>(detection.image_width);
   message->height = static_cast<std::uint32_t>(detection.image_height);
   message->step = message->width;
-  message->data.resize(detection.labels.size());
+  message->data = detection.labels;
+  return message;
+}
+
+sensor_msgs::ImagePtr maskMessage(const std_msgs::Header& header, const Detection& detection) {
+  sensor_msgs::ImagePtr message = labelsMessage(header, detection);
   constexpr auto kGround = static_cast<std::uint8_t>(Label::kGround);
-  std::transform(detection.labels.begin(), detection.labels.end(), message->data.begin(),
-                 [](std::uint8_t label) { return label == kGround ? 255 : 0; });
+  for (std::uint8_t& pixel : message->data) pixel = pixel == kGround ? 255 : 0;
   return message;
 }
 

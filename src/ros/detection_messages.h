@@ -24,6 +24,9 @@ pcl_msgs::ModelCoefficientsPtr coefficientsMessage(const std_msgs::Header& heade
 /// @return mono8, 255 where the label is ground, 0 elsewhere.
 sensor_msgs::ImagePtr maskMessage(const std_msgs::Header& header, const Detection& detection);
 
+/// @return mono8, the `Label` of each pixel.
+sensor_msgs::ImagePtr labelsMessage(const std_msgs::Header& header, const Detection& detection);
+
 /// @param outline [m] corners.
 geometry_msgs::PolygonStampedPtr outlineMessage(const std_msgs::Header& header,
                                                 const std::vector<Eigen::Vector3d>& outline);

@@ -28,19 +28,23 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
   obstacles_ =
       node.advertise<sensor_msgs::PointCloud2>(topics::kObstacles, kQueue, changed, changed);
   ground_ = node.advertise<sensor_msgs::PointCloud2>(topics::kGround, kQueue, changed, changed);
+  drop_offs_ =
+      node.advertise<sensor_msgs::PointCloud2>(topics::kDropOffs, kQueue, changed, changed);
   outline_ =
       node.advertise<geometry_msgs::PolygonStamped>(topics::kOutline, kQueue, changed, changed);
   markers_ =
       node.advertise<visualization_msgs::MarkerArray>(topics::kMarkers, kQueue, changed, changed);
   image_transport::ImageTransport transport(node);
   mask_ = transport.advertise(topics::kGroundMask, kQueue, image_changed, image_changed);
+  labels_ = transport.advertise(topics::kLabels, kQueue, image_changed, image_changed);
 }
 
 bool DetectionOutputs::anybodyListens() const {
   return plane_.getNumSubscribers() + coefficients_.getNumSubscribers() +
              obstacles_.getNumSubscribers() + ground_.getNumSubscribers() +
-             outline_.getNumSubscribers() + markers_.getNumSubscribers() +
-             mask_.getNumSubscribers() >
+             drop_offs_.getNumSubscribers() + outline_.getNumSubscribers() +
+             markers_.getNumSubscribers() + mask_.getNumSubscribers() +
+             labels_.getNumSubscribers() >
          0;
 }
 
@@ -53,6 +57,7 @@ void DetectionOutputs::publish(const DetectionInputs::Frame& frame, const Detect
     coefficients_.publish(coefficientsMessage(frame.header, detection));
   }
   if (mask_.getNumSubscribers() > 0) mask_.publish(maskMessage(frame.header, detection));
+  if (labels_.getNumSubscribers() > 0) labels_.publish(labelsMessage(frame.header, detection));
   publishClouds(frame, detection);
   publishShapes(frame, detection);
 }
@@ -68,6 +73,7 @@ void DetectionOutputs::publishClouds(const DetectionInputs::Frame& frame,
   };
   publish(obstacles_, Label::kObstacle);
   publish(ground_, Label::kGround);
+  publish(drop_offs_, Label::kDropOff);
 }
 
 void DetectionOutputs::publishShapes(const DetectionInputs::Frame& frame,

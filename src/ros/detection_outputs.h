@@ -35,9 +35,11 @@ class DetectionOutputs {
   ros::Publisher coefficients_;
   ros::Publisher obstacles_;
   ros::Publisher ground_;
+  ros::Publisher drop_offs_;
   ros::Publisher outline_;
   ros::Publisher markers_;
   image_transport::Publisher mask_;
+  image_transport::Publisher labels_;
   RayTable rays_;
 };
 

@@ -18,9 +18,11 @@ constexpr const char* kPicture = "image";
 constexpr const char* kPlane = "plane";
 constexpr const char* kCoefficients = "coefficients";
 constexpr const char* kGroundMask = "ground_mask";
+constexpr const char* kLabels = "labels";
 constexpr const char* kOverlay = "overlay";
 constexpr const char* kObstacles = "obstacles";
 constexpr const char* kGround = "ground";
+constexpr const char* kDropOffs = "drop_offs";
 constexpr const char* kOutline = "outline";
 constexpr const char* kMarkers = "markers";
 

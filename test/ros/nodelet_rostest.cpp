@@ -6,6 +6,7 @@
 #include <rosgraph_msgs/Log.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "nodelet_fixture.h"
 
@@ -29,19 +30,21 @@ TEST_F(Nodelet, AllOutputsOfOneImage) {
   Listener<DominantPlane> planes(node_, "/plane_detection/plane");
   Listener<pcl_msgs::ModelCoefficients> coefficients(node_, "/plane_detection/coefficients");
   Listener<sensor_msgs::Image> masks(node_, "/plane_detection/ground_mask");
+  Listener<sensor_msgs::Image> labels(node_, "/plane_detection/labels");
   Listener<sensor_msgs::Image> overlays(node_, "/plane_detection/overlay");
   Listener<pcl::PointCloud<pcl::PointXYZ>> obstacles(node_, "/plane_detection/obstacles");
   Listener<pcl::PointCloud<pcl::PointXYZ>> grounds(node_, "/plane_detection/ground");
   ASSERT_TRUE(waitForSubscription());
   ASSERT_TRUE(spinUntil([&] {
     return planes.connected() && coefficients.connected() && masks.connected() &&
-           overlays.connected() && obstacles.connected() && grounds.connected();
+           labels.connected() && overlays.connected() && obstacles.connected() &&
+           grounds.connected();
   }));
   const DominantPlaneConstPtr plane = detect(planes, image_);
   expectTruth(plane);
   ASSERT_TRUE(spinUntil([&] {
-    return coefficients.size() > 0 && masks.size() > 0 && overlays.size() > 0 &&
-           obstacles.size() > 0 && grounds.size() > 0;
+    return coefficients.size() > 0 && masks.size() > 0 && labels.size() > 0 &&
+           overlays.size() > 0 && obstacles.size() > 0 && grounds.size() > 0;
   }));
   EXPECT_EQ(coefficients.last()->header.stamp, plane->header.stamp);
   EXPECT_NEAR(static_cast<double>(coefficients.last()->values.at(3)), plane->distance, 1e-6);
@@ -50,6 +53,11 @@ TEST_F(Nodelet, AllOutputsOfOneImage) {
   EXPECT_EQ(mask.encoding, "mono8");
   EXPECT_EQ(mask.data[230 * 640 + 330], 0);
   EXPECT_EQ(mask.data[400 * 640 + 330], 255);
+  EXPECT_EQ(labels.last()->header.stamp, plane->header.stamp);
+  EXPECT_EQ(labels.last()->encoding, "mono8");
+  EXPECT_EQ(labels.last()->step, 640U);
+  EXPECT_EQ(labels.last()->data[230 * 640 + 330], 2);
+  EXPECT_EQ(labels.last()->data[400 * 640 + 330], 1);
   const sensor_msgs::Image& overlay = *overlays.last();
   EXPECT_EQ(overlay.encoding, "bgr8");
   EXPECT_EQ(overlay.data[400 * overlay.step + 3 * 330], 0);
@@ -64,6 +72,28 @@ TEST_F(Nodelet, AllOutputsOfOneImage) {
   EXPECT_NEAR(static_cast<double>(obstacles.last()->size()), 3600.0, 10.0);
   for (const auto& point : *obstacles.last()) {
     ASSERT_NEAR(kUp.dot(point.getVector3fMap().cast<double>()) + kHeight, kBox, 0.01);
+  }
+}
+
+/// A trench of 40 x 60 pixels, 10 cm deep as seen along the rays.
+TEST_F(Nodelet, DropOffsAreACloud) {
+  Listener<DominantPlane> planes(node_, "/plane_detection/plane");
+  Listener<pcl::PointCloud<pcl::PointXYZ>> drop_offs(node_, "/plane_detection/drop_offs");
+  ASSERT_TRUE(waitForSubscription());
+  ASSERT_TRUE(spinUntil([&] { return planes.connected() && drop_offs.connected(); }));
+  sensor_msgs::Image image = image_;
+  auto* pixels = reinterpret_cast<std::uint16_t*>(image.data.data());
+  for (int v = 400; v < 440; ++v) {
+    for (int u = 100; u < 160; ++u) {
+      std::uint16_t& z = pixels[v * 640 + u];
+      z = static_cast<std::uint16_t>(std::lround(z * (kHeight + 0.1) / kHeight));
+    }
+  }
+  expectTruth(detect(planes, image));
+  ASSERT_TRUE(spinUntil([&] { return drop_offs.size() > 0; }));
+  EXPECT_EQ(drop_offs.last()->size(), 2400U);
+  for (const auto& point : *drop_offs.last()) {
+    ASSERT_NEAR(kUp.dot(point.getVector3fMap().cast<double>()) + kHeight, -0.1, 0.005);
   }
 }
 
