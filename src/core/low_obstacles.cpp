@@ -29,7 +29,9 @@ constexpr auto kGroundLabel = static_cast<std::uint8_t>(Label::kGround);
 constexpr auto kUnknownLabel = static_cast<std::uint8_t>(Label::kUnknown);
 constexpr auto kObstacleLabel = static_cast<std::uint8_t>(Label::kObstacle);
 
-constexpr std::uint8_t kNotSeen = 0, kTaken = 1, kRefused = 2;
+constexpr std::uint8_t kNotSeen = 0, kTaken = 1, kRefused = 2, kAtEdge = 3;
+/// [px] What one obstacle may have without an allocation: an image of usual size.
+constexpr std::size_t kUsualPixels = 640 * 480;
 
 /// [blocks] How far from its evidence an obstacle may grow: 12 pixels, or one larger block.
 int growthReach(const GroundLevel& level) { return level.block == kBlockSize ? 3 : 1; }
@@ -90,7 +92,10 @@ void LowObstacles::look(const ImageInput& input, const LabelRule& rule,
 
 GroundLoss LowObstacles::mark(std::vector<std::uint8_t>& labels) {
   loss_ = GroundLoss();
-  seen_.resize(labels.size(), kNotSeen);
+  pixels_.reserve(std::min(labels.size(), kUsualPixels));
+  evidence_blocks_.reserve(blocks_.size());
+  reach_.reserve(blocks_.size());
+  seen_.reserve(labels.size());
   std::size_t all = 0;
   for (const GroundLevel& level : local_ground_.levels()) all += level.size();
   evidence_ = static_cast<float>(evidence(all, limits_.false_alarm_rate));
@@ -149,7 +154,7 @@ void LowObstacles::search(const GroundLevel& level, std::vector<std::uint8_t>& l
   }
   if (evidence_blocks_.empty()) return;
   reach_.assign(level.size(), 0.0F);
-  looked_at_.clear();
+  seen_.assign(labels.size(), kNotSeen);
   for (const Pixel& block : evidence_blocks_) {
     const std::size_t at = level.at(block.u, block.v);
     const float over = level.mean[at] - level.ground[at];
@@ -170,7 +175,6 @@ void LowObstacles::search(const GroundLevel& level, std::vector<std::uint8_t>& l
       }
     }
   }
-  for (const Pixel& pixel : looked_at_) seen_[indexOf(pixel)] = kNotSeen;
 }
 
 float LowObstacles::reachOf(const GroundLevel& level, Pixel pixel) const {
@@ -181,15 +185,16 @@ float LowObstacles::reachOf(const GroundLevel& level, Pixel pixel) const {
 /// @return whether it is high enough to belong to the evidence about it.
 bool LowObstacles::joins(const GroundLevel& level, Pixel pixel) {
   if (pixel.u < 0 || pixel.v < 0 || pixel.u >= input_->depth.width ||
-      pixel.v >= input_->depth.height || seen_[indexOf(pixel)] != kNotSeen) {
+      pixel.v >= input_->depth.height) {
     return false;
   }
+  std::uint8_t& seen = seen_[indexOf(pixel)];
+  if (seen == kTaken || seen == kRefused) return false;
   const float reach = reachOf(level, pixel);
   if (reach == 0.0F) return false;
   const std::optional<float> height = heightOff(pixel);
   const bool on_it = height && *height - level.groundAt(pixel.u, pixel.v) > kOnIt * reach;
-  seen_[indexOf(pixel)] = on_it ? kTaken : kRefused;
-  looked_at_.push_back(pixel);
+  seen = on_it ? kTaken : kRefused;
   return on_it;
 }
 
@@ -237,7 +242,10 @@ void LowObstacles::write(const GroundLevel& level, std::vector<std::uint8_t>& la
     const int last_v = std::min(pixel.v + kEdge, input_->depth.height - 1);
     for (int v = std::max(pixel.v - kEdge, 0); v <= last_v; ++v) {
       for (int u = std::max(pixel.u - kEdge, 0); u <= last_u; ++u) {
-        if (labels[indexOf({u, v})] != kGroundLabel) continue;
+        // Once a pixel: the edge of a ragged candidate is long.
+        std::uint8_t& seen = seen_[indexOf({u, v})];
+        if (seen == kAtEdge || labels[indexOf({u, v})] != kGroundLabel) continue;
+        seen = kAtEdge;
         const std::optional<float> height = heightOff({u, v});
         if (!height || *height - level.groundAt(u, v) <= floor) continue;
         change({u, v}, *height, kUnknownLabel, labels);

@@ -32,10 +32,9 @@ struct GroundLoss {
 /// were the errors of all blocks independent and normally distributed, that many blocks an image
 /// would exceed it. From such blocks an obstacle grows over the pixels that hang together and reach
 /// 0.4 of its height; where it is narrower than `min_width` it is left alone, as the bumps of the
-/// local error are. A pixel within the narrow band, sigma(z), stays what it is: neither is it an
-/// obstacle nor at the edge of one. Pixels at its edge
-/// that are neither on it nor on the ground are unknown. What is within 0.6 of the narrow band is
-/// never either: it is on the plane itself.
+/// local error are. What is within 0.6 of the narrow band is on the plane
+/// itself and stays ground; other pixels at an obstacle's edge that are neither on it nor on the
+/// ground are unknown.
 ///
 /// Next to what is tall, and to where nothing can be read, depth is smeared over some pixels:
 /// there is no evidence in such tiles and those about them.
@@ -90,7 +89,6 @@ class LowObstacles {
   std::vector<std::uint8_t> seen_;  ///< what became of each pixel in this level
   std::vector<Pixel> evidence_blocks_;  ///< of the level: column and row
   std::vector<Pixel> pixels_;           ///< of one candidate
-  std::vector<Pixel> looked_at_;        ///< of the level
 };
 
 }  // namespace dominant_plane_detection

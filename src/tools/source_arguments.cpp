@@ -42,8 +42,8 @@ void declareSource(CLI::App& app, SourceArguments& arguments, bool required) {
 
 Parameters SourceArguments::readParameters() const {
   Parameters parameters;
-  if (!sensor.empty()) loadParameters(findSensorProfile(sensor), parameters);
   if (!params.empty()) loadParameters(params, parameters);
+  if (!sensor.empty()) loadParameters(findSensorProfile(sensor), parameters);
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) {

@@ -22,7 +22,7 @@ struct SourceArguments {
   std::vector<double> range;
   std::string algorithm;
 
-  /// Later ones win: --sensor, --params, --set, --range, --algorithm.
+  /// Later ones win, as in the launch files: --params, --sensor, --set, --range, --algorithm.
   /// @throw std::invalid_argument, std::runtime_error
   Parameters readParameters() const;
   /// @throw std::runtime_error

@@ -242,5 +242,21 @@ TEST(Detector, AWarmDetectorAllocatesNothing) {
   EXPECT_EQ(allocationCount() - before, 0U);
 }
 
+/// The first image has nothing on its floor, the second a plate of 2 cm.
+TEST(Detector, AnObstacleThatComesLaterAllocatesNothing) {
+  const CameraModel camera = testCamera();
+  const OwnedDepth<float> floor = planeDepth(camera, upOf(0.6), 0.9);
+  OwnedDepth<float> plate = floor;
+  for (int v = 250; v < 330; ++v) {
+    for (int u = 280; u < 380; ++u) plate.at(u, v) *= (0.9F - 0.02F) / 0.9F;
+  }
+  DominantPlaneDetector detector;
+  ASSERT_TRUE(detector.detect(floor.view(), camera).found());
+  const std::size_t before = allocationCount();
+  const Detection& detection = detector.detect(plate.view(), camera);
+  EXPECT_EQ(allocationCount() - before, 0U);
+  EXPECT_EQ(detection.label(330, 290), Label::kObstacle);
+}
+
 }  // namespace
 }  // namespace dominant_plane_detection
