@@ -73,6 +73,18 @@ class Parameters(unittest.TestCase):
                              "/camera/depth/image_raw", name)
 
 
+    def test_a_sensor_overrides_the_files_errors_and_nothing_else(self):
+        nodes = {"detection": "/plane_detection", "replay": "/plane_detection",
+                 "pioneer": "/camera/plane_detection", "handheld": "/camera/plane_detection"}
+        for name, node in nodes.items():
+            arguments = {"bag": "/some.bag"} if name == "replay" else {}
+            plain = parameters(load(name, **arguments), node)
+            profile = parameters(load(name, sensor="xtion", **arguments), node)
+            changed = {key: profile[key] for key in profile if profile[key] != plain[key]}
+            self.assertEqual(changed, {"local_error_constant": 0.0009,
+                                       "local_error_quadratic": 0.00045}, name)
+
+
 class Managers(unittest.TestCase):
     def managers(self, device_id):
         """Returns the manager of the driver, that of the detection, and all that are started."""
