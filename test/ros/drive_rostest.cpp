@@ -10,7 +10,7 @@
 #include <set>
 
 #include "dominant_plane_detection/detection.h"
-#include "dominant_plane_detection/noise_model.h"
+#include "dominant_plane_detection/parameters.h"
 #include "support/driver_test.h"
 #include "support/ros_test.h"
 #include "synthetic/scene.h"
@@ -31,7 +31,7 @@ constexpr double kBinHeight = 0.4;      // [m]
 struct Truth {
   Eigen::Vector3d normal;
   double distance = 0.0;
-  std::vector<std::uint8_t> bin;    ///< 1: the bin, well above the floor
+  std::vector<std::uint8_t> bin;    ///< 1: the bin, above the ground band
   std::vector<std::uint8_t> floor;  ///< 1: the floor
 };
 
@@ -48,7 +48,7 @@ class DriveTruth {
     truth.bin.resize(rendering.depth.size());
     truth.floor.resize(rendering.depth.size());
     const auto* readings = reinterpret_cast<const std::uint16_t*>(image.data.data());
-    const NoiseModel noise;
+    const Parameters parameters;
     for (std::size_t i = 0; i < rendering.depth.size(); ++i) {
       const double reading = 0.001 * readings[i];
       if (reading < 0.5 || reading > 4.0) continue;  // what the detection works on
@@ -61,7 +61,9 @@ class DriveTruth {
       const Eigen::Vector3d point = pose * (z * ray);
       const bool of_bin = (point.head<2>() - kBin).norm() < kBinRadius + 0.002 && point.z() > 0.0 &&
                           point.z() < kBinHeight + 0.002;
-      truth.bin[i] = of_bin && point.z() > std::max(0.01, 3.0 * noise.sigma(z)) ? 1 : 0;
+      // Its foot, within the ground band, may be unknown.
+      const double band = parameters.ground_band.at(z, parameters.noise);
+      truth.bin[i] = of_bin && point.z() > std::max(0.01, band) ? 1 : 0;
     }
     return truth;
   }
