@@ -17,6 +17,7 @@
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "support/floor_objects.h"
 #include "support/recordings.h"
+#include "tools/sensor_profiles.h"
 #include "tools/yaml_files.h"
 
 namespace dominant_plane_detection {
@@ -156,7 +157,7 @@ void evaluate(const ReferenceSet& set, const std::string& sensor, const std::str
   Parameters parameters;
   parameters.range_min = set.range_min;
   parameters.range_max = set.range_max;
-  loadParameters(std::string(DPD_SOURCE) + "/config/sensors/" + sensor + ".yaml", parameters);
+  loadParameters(findSensorProfile(sensor), parameters);
   DominantPlaneDetector detector(parameters);
   std::vector<Contestant> contestants;
   contestants.push_back(

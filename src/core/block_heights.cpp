@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "core/label_rule-inl.h"
 #include "core/pixel_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,19 +26,15 @@ struct ColumnSums {
 
 template <bool kSeparable, typename Pixel>
 HWY_INLINE void sumColumns(const PixelRow<Pixel>* rows, int row_count, const ReadingRange& range,
-                           const LabelRule& rule, ColumnSums& sums) {
+                           const VectorRule& rule, ColumnSums& sums) {
   const Floats d;
   const auto two = hn::Set(d, 2.0F);
   for (int i = 0; i < kTileSize; i += static_cast<int>(hn::Lanes(d))) {
     auto height_sum = hn::Zero(d), count = hn::Zero(d);
     for (int row = 0; row < row_count; ++row) {
       const auto point = loadPoints<kSeparable>(rows[row], i, range);
-      const auto along_ray = hn::MulAdd(
-          hn::Set(d, rule.normal[0]), point.ray_x,
-          hn::MulAdd(hn::Set(d, rule.normal[1]), point.ray_y, hn::Set(d, rule.normal[2])));
-      const auto height = hn::MulAdd(point.z, along_ray, hn::Set(d, rule.distance));
-      const auto band =
-          hn::MulAdd(hn::Mul(point.z, point.z), hn::Set(d, rule.band_z2), hn::Set(d, rule.band));
+      const auto height = rule.height(point);
+      const auto band = rule.band(point);
       const auto cut = hn::Min(hn::Max(height, hn::Neg(band)), band);
       height_sum = hn::Add(height_sum, hn::IfThenElseZero(point.valid, cut));
       const auto within = hn::And(point.valid, hn::Le(hn::Abs(height), hn::Mul(two, band)));
@@ -72,6 +69,7 @@ HWY_INLINE void computeBlocks(const ImageInput& input, const LabelRule& rule,
   const DepthView& depth = input.depth;
   PixelRow<Pixel> rows[kBlockSize];
   PaddedRow<Pixel> padded[kBlockSize];
+  const VectorRule vector_rule(rule);
   ColumnSums sums;
   for (int block_row = 0; block_row < blocks.rows; ++block_row) {
     const int top = block_row * kBlockSize;
@@ -82,7 +80,7 @@ HWY_INLINE void computeBlocks(const ImageInput& input, const LabelRule& rule,
         rows[row] = pixelRow<kSeparable, Pixel>(input, u, top + row);
         if (width < kTileSize) rows[row] = padded[row].template fill<kSeparable>(rows[row], width);
       }
-      sumColumns<kSeparable>(rows, row_count, input.range, rule, sums);
+      sumColumns<kSeparable>(rows, row_count, input.range, vector_rule, sums);
       for (int first = 0; first < width; first += kBlockSize) {
         const std::size_t block = static_cast<std::size_t>(block_row * blocks.columns) +
                                   static_cast<std::size_t>((u + first) / kBlockSize);
@@ -93,14 +91,9 @@ HWY_INLINE void computeBlocks(const ImageInput& input, const LabelRule& rule,
 }
 
 void computeAllBlocks(const ImageInput& input, const LabelRule& rule, BlockHeights& blocks) {
-  const bool separable = input.rays.separable();
-  if (input.depth.type == DepthView::Type::kUint16) {
-    separable ? computeBlocks<true, std::uint16_t>(input, rule, blocks)
-              : computeBlocks<false, std::uint16_t>(input, rule, blocks);
-  } else {
-    separable ? computeBlocks<true, float>(input, rule, blocks)
-              : computeBlocks<false, float>(input, rule, blocks);
-  }
+  visitLayout(input, [&](auto separable, auto pixel) HWY_ATTR {
+    computeBlocks<separable.value, decltype(pixel)>(input, rule, blocks);
+  });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -113,9 +106,8 @@ namespace dominant_plane_detection {
 HWY_EXPORT(computeAllBlocks);
 
 void computeBlockHeights(const ImageInput& input, const LabelRule& rule, BlockHeights& blocks) {
-  const auto cover = [](int pixels) { return (pixels + kBlockSize - 1) / kBlockSize; };
-  blocks.columns = cover(input.depth.width);
-  blocks.rows = cover(input.depth.height);
+  blocks.columns = covering(input.depth.width, kBlockSize);
+  blocks.rows = covering(input.depth.height, kBlockSize);
   blocks.sum.resize(blocks.size());
   blocks.count.resize(blocks.size());
   blocks.tall.resize(blocks.size());

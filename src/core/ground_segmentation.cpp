@@ -31,8 +31,8 @@ SegmentationCounts GroundSegmentation::label(const ImageInput& input, const Eige
                                              std::vector<std::uint8_t>& labels) {
   labels.resize(static_cast<std::size_t>(input.depth.width) *
                 static_cast<std::size_t>(input.depth.height));
-  const auto tiles = [](int pixels) { return (pixels + kTileSize - 1) / kTileSize; };
-  const int columns = tiles(input.depth.width), rows = tiles(input.depth.height);
+  const int columns = covering(input.depth.width, kTileSize);
+  const int rows = covering(input.depth.height, kTileSize);
   widenTiles(columns, rows, region, in_row_, tile_kinds_);
   const LabelRule rule = labelRule(normal, distance, limits);
   const bool low = limits.low.false_alarm_rate > 0.0;

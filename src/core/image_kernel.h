@@ -6,6 +6,9 @@
 
 namespace dominant_plane_detection {
 
+/// @return how many squares with a side of so many pixels cover a length.
+constexpr int covering(int length, int side) { return (length + side - 1) / side; }
+
 /// Which readings count, and what they mean.
 struct ReadingRange {
   float metres_per_unit;  ///< [m]

@@ -94,7 +94,7 @@ bool KdtreeSearch::tryRegion(std::size_t cell) {
 }
 
 std::vector<std::size_t> KdtreeSearch::regionTiles() const {
-  const auto tile_columns = static_cast<std::size_t>((image_width_ + kTileSize - 1) / kTileSize);
+  const auto tile_columns = static_cast<std::size_t>(covering(image_width_, kTileSize));
   std::vector<std::size_t> tiles;
   for (const std::size_t point : region_) {
     const auto pixel = static_cast<int>(pixel_of_[point]);

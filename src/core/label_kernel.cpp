@@ -10,29 +10,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "core/label_rule-inl.h"
 #include "core/pixel_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace dominant_plane_detection {
 namespace HWY_NAMESPACE {
-
-/// The rule in vectors. Made once: the labels are bytes, which may alias anything, so the compiler
-/// would load the rule again after each of them.
-struct VectorRule {
-  Vector normal_x, normal_y, normal_z, distance, band, band_z2, narrow, narrow_z2;
-
-  explicit VectorRule(const LabelRule& rule) {
-    const Floats d;
-    normal_x = hn::Set(d, rule.normal[0]);
-    normal_y = hn::Set(d, rule.normal[1]);
-    normal_z = hn::Set(d, rule.normal[2]);
-    distance = hn::Set(d, rule.distance);
-    band = hn::Set(d, rule.band);
-    band_z2 = hn::Set(d, rule.band_z2);
-    narrow = hn::Set(d, rule.narrow);
-    narrow_z2 = hn::Set(d, rule.narrow_z2);
-  }
-};
 
 /// Sums over the lanes' ground pixels: their number, and their squared heights [m^2].
 struct VectorSums {
@@ -46,15 +29,11 @@ HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, Vector
   const Floats d;
   const hn::Rebind<std::int32_t, Floats> wide;
   const hn::Rebind<std::uint8_t, Floats> bytes;
-  const auto along_ray = hn::MulAdd(rule.normal_x, points.ray_x,
-                                    hn::MulAdd(rule.normal_y, points.ray_y, rule.normal_z));
-  const auto height = hn::MulAdd(points.z, along_ray, rule.distance);
-  const auto z2 = hn::Mul(points.z, points.z);
+  const auto height = rule.height(points);
   const auto off = hn::Abs(height);
-  const auto in_band = hn::And(points.valid, hn::Le(off, hn::MulAdd(z2, rule.band_z2, rule.band)));
+  const auto in_band = hn::And(points.valid, hn::Le(off, rule.band(points)));
   const auto ground =
-      kKind == kSmeared ? hn::And(in_band, hn::Le(off, hn::MulAdd(z2, rule.narrow_z2, rule.narrow)))
-                        : in_band;
+      kKind == kSmeared ? hn::And(in_band, hn::Le(off, rule.narrowBand(points))) : in_band;
 
   const auto constant = [&](Label label) {
     return hn::Set(wide, static_cast<std::int32_t>(label));
@@ -96,7 +75,7 @@ HWY_INLINE LabelSums labelImage(const ImageInput& input, const LabelRule& rule,
   const int step = static_cast<int>(hn::Lanes(d));
   const int width = input.depth.width;
   const int whole = width - width % kTileSize;
-  const int columns = (width + kTileSize - 1) / kTileSize;
+  const int columns = covering(width, kTileSize);
   LabelSums total;
   for (int v = 0; v < input.depth.height; ++v, labels += width) {
     const std::uint8_t* tiles = tile_kinds + static_cast<std::ptrdiff_t>(v / kTileSize) * columns;
@@ -125,13 +104,9 @@ HWY_INLINE LabelSums labelImage(const ImageInput& input, const LabelRule& rule,
 
 LabelSums labelAll(const ImageInput& input, const LabelRule& rule, const std::uint8_t* tile_kinds,
                    std::uint8_t* labels) {
-  const bool separable = input.rays.separable();
-  if (input.depth.type == DepthView::Type::kUint16) {
-    return separable ? labelImage<true, std::uint16_t>(input, rule, tile_kinds, labels)
-                     : labelImage<false, std::uint16_t>(input, rule, tile_kinds, labels);
-  }
-  return separable ? labelImage<true, float>(input, rule, tile_kinds, labels)
-                   : labelImage<false, float>(input, rule, tile_kinds, labels);
+  return visitLayout(input, [&](auto separable, auto pixel) HWY_ATTR {
+    return labelImage<separable.value, decltype(pixel)>(input, rule, tile_kinds, labels);
+  });
 }
 
 }  // namespace HWY_NAMESPACE

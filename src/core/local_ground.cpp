@@ -8,8 +8,7 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr std::size_t kTileLevel = 1;  // whose blocks are the tiles
-constexpr int kReach = 3;              // [blocks] of a window to either side
+constexpr int kReach = 3;  // [blocks] of a window to either side
 constexpr float kWindow = (2 * kReach + 1) * (2 * kReach + 1);
 constexpr float kClip = 2.5F;       // [-] in local errors
 constexpr float kFirstClip = 4.0F;  // [-] of the first look, against the plane itself
@@ -32,7 +31,7 @@ void sumWindows(const std::vector<float>& values, int columns, int rows, Rows ra
   float* inside = column_sum.data() + kReach;
   const int before = range.first - kReach;
   for (int y = before - kReach; y < range.end; ++y) {
-    if (y + kReach < rows && y + kReach >= std::max(before, 0)) {
+    if (y + kReach < rows && y + kReach >= 0) {
       const float* enters = row(y + kReach);
       for (std::size_t x = 0; x < width; ++x) inside[x] += enters[x];
     }
@@ -61,20 +60,6 @@ Rows keptRows(const GroundLevel& level) {
 Rows readRows(const GroundLevel& level) {
   const Rows kept = keptRows(level);
   return {std::max(kept.first - kReach, 0), std::min(kept.end + kReach, level.rows)};
-}
-
-/// @return between the four blocks about a place in units of blocks, the first one's centre at 0.
-float interpolate(const std::vector<float>& values, int columns, int rows, float x, float y) {
-  const float right = std::clamp(x, 0.0F, static_cast<float>(columns - 1));
-  const float down = std::clamp(y, 0.0F, static_cast<float>(rows - 1));
-  const int i = static_cast<int>(right), j = static_cast<int>(down);
-  const float a = right - static_cast<float>(i), b = down - static_cast<float>(j);
-  const auto at = [&](int column, int row) {
-    return values[static_cast<std::size_t>(std::min(row, rows - 1) * columns +
-                                           std::min(column, columns - 1))];
-  };
-  return (1.0F - b) * ((1.0F - a) * at(i, j) + a * at(i + 1, j)) +
-         b * ((1.0F - a) * at(i, j + 1) + a * at(i + 1, j + 1));
 }
 
 /// The plane's depth in the middle of each block; 0 above its horizon.
@@ -120,10 +105,17 @@ void halve(const std::vector<float>& from, int from_columns, int from_rows, int 
 }  // namespace
 
 float GroundLevel::groundAt(int u, int v) const {
-  const auto place = [&](int pixel) {
-    return (static_cast<float>(pixel) + 0.5F) / static_cast<float>(block) - 0.5F;
+  // In units of blocks, 0 in the middle of the first one.
+  const auto place = [&](int pixel, int blocks) {
+    const float middle = (static_cast<float>(pixel) + 0.5F) / static_cast<float>(block) - 0.5F;
+    return std::clamp(middle, 0.0F, static_cast<float>(blocks - 1));
   };
-  return interpolate(ground, columns, rows, place(u), place(v));
+  const float x = place(u, columns), y = place(v, rows);
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  const int right = std::min(left + 1, columns - 1), bottom = std::min(top + 1, rows - 1);
+  const float a = x - static_cast<float>(left), b = y - static_cast<float>(top);
+  return (1.0F - b) * ((1.0F - a) * ground[at(left, top)] + a * ground[at(right, top)]) +
+         b * ((1.0F - a) * ground[at(left, bottom)] + a * ground[at(right, bottom)]);
 }
 
 void LocalGround::collect(const BlockHeights& blocks) {
@@ -147,8 +139,7 @@ void LocalGround::collect(const BlockHeights& blocks) {
 /// Turns sums into means, and finds out which blocks are ground.
 /// @param near_ground of tiles; a block of the coarsest level is ground if all of its tiles are.
 void LocalGround::average(const std::vector<std::uint8_t>& near_ground, GroundLevel& level) {
-  const int tile_columns = levels_[kTileLevel].columns, tile_rows = levels_[kTileLevel].rows;
-  const auto half = 0.5F * static_cast<float>(level.block * level.block);
+  const int tile_columns = tiles().columns, tile_rows = tiles().rows;
   level.can_support.resize(level.size());
   const Rows kept = readRows(level);
   for (int y = kept.first; y < kept.end; ++y) {
@@ -163,7 +154,7 @@ void LocalGround::average(const std::vector<std::uint8_t>& near_ground, GroundLe
       const int left = x * level.block / kTileSize;
       const int right = std::min(((x + 1) * level.block - 1) / kTileSize, tile_columns - 1);
       const bool ground = upper[left] && upper[right] && lower[left] && lower[right];
-      const bool is_read = level.count[at] >= half;
+      const bool is_read = level.isRead(at);
       level.mean[at] = is_read ? level.mean[at] / level.count[at] : 0.0F;
       level.can_support[at] = ground && is_read ? 1.0F : 0.0F;
     }

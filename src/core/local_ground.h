@@ -56,6 +56,8 @@ class LocalGround {
 
   /// @return from blocks of 4 pixels to blocks of 16.
   const std::array<GroundLevel, 3>& levels() const { return levels_; }
+  /// @return the level whose blocks are the tiles.
+  const GroundLevel& tiles() const { return levels_[1]; }
 
  private:
   void collect(const BlockHeights& blocks);

@@ -105,32 +105,29 @@ GroundLoss LowObstacles::mark(std::vector<std::uint8_t>& labels) {
 
 /// Widens the tiles of which at least half of the blocks are marked.
 void LowObstacles::widen(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& wide) {
-  const int columns = (blocks_.columns + kTileBlocks - 1) / kTileBlocks;
-  const int rows = (blocks_.rows + kTileBlocks - 1) / kTileBlocks;
-  marked_tiles_.assign(static_cast<std::size_t>(columns * rows), 0);
+  const GroundLevel& tiles = local_ground_.tiles();
+  marked_tiles_.assign(tiles.size(), 0);
   for (int y = 0; y < blocks_.rows; ++y) {
     const std::uint8_t* from = marked.data() + static_cast<std::ptrdiff_t>(y) * blocks_.columns;
-    std::uint8_t* tile =
-        marked_tiles_.data() + static_cast<std::ptrdiff_t>(y / kTileBlocks) * columns;
+    std::uint8_t* tile = marked_tiles_.data() + tiles.at(0, y / kTileBlocks);
     for (int x = 0; x < blocks_.columns; ++x) tile[x / kTileBlocks] += from[x];
   }
   for (std::uint8_t& tile : marked_tiles_) tile = tile >= kHalf;
-  widenTiles(columns, rows, marked_tiles_, in_row_, wide);
+  widenTiles(tiles.columns, tiles.rows, marked_tiles_, in_row_, wide);
 }
 
 /// @return whether more than a quarter of a block's tiles are next to what is tall, or to nothing.
 bool LowObstacles::isUnsure(const GroundLevel& level, int x, int y) const {
-  const int columns = (blocks_.columns + kTileBlocks - 1) / kTileBlocks;
-  const int rows = (blocks_.rows + kTileBlocks - 1) / kTileBlocks;
-  const int tiles = std::max(level.block / kTileSize, 1);
+  const GroundLevel& tiles = local_ground_.tiles();
+  const int side = std::max(level.block / kTileSize, 1);
   const int left = x * level.block / kTileSize, top = y * level.block / kTileSize;
   int unsure = 0;
-  for (int j = top; j < std::min(top + tiles, rows); ++j) {
-    for (int i = left; i < std::min(left + tiles, columns); ++i) {
-      unsure += unsure_[static_cast<std::size_t>(j * columns + i)];
+  for (int j = top; j < std::min(top + side, tiles.rows); ++j) {
+    for (int i = left; i < std::min(left + side, tiles.columns); ++i) {
+      unsure += unsure_[tiles.at(i, j)];
     }
   }
-  return 4 * unsure > tiles * tiles;
+  return 4 * unsure > side * side;
 }
 
 bool LowObstacles::isEvidence(const GroundLevel& level, int x, int y) const {

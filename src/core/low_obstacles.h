@@ -32,9 +32,8 @@ struct GroundLoss {
 /// were the errors of all blocks independent and normally distributed, that many blocks an image
 /// would exceed it. From such blocks an obstacle grows over the pixels that hang together and reach
 /// 0.4 of its height; where it is narrower than `min_width` it is left alone, as the bumps of the
-/// local error are. What is within 0.6 of the narrow band is on the plane
-/// itself and stays ground; other pixels at an obstacle's edge that are neither on it nor on the
-/// ground are unknown.
+/// local error are. What is within 0.6 of the narrow band is on the plane itself and stays ground;
+/// other pixels at an obstacle's edge that are neither on it nor on the ground are unknown.
 ///
 /// Next to what is tall, and to where nothing can be read, depth is smeared over some pixels:
 /// there is no evidence in such tiles and those about them.

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 
 #include "core/image_kernel.h"
 #include "core/tile_moments.h"
@@ -82,6 +83,18 @@ HWY_INLINE Points loadPoints(const PixelRow<Pixel>& row, int i, const ReadingRan
       hn::And(hn::Ge(points.z, hn::Set(d, range.min)), hn::Le(points.z, hn::Set(d, range.max)));
   if (!kSeparable) points.valid = hn::And(points.valid, hn::Eq(points.ray_x, points.ray_x));
   return points;
+}
+
+/// Calls visit(separable, pixel) with values whose types tell how the image's rays and its pixels
+/// are stored.
+template <typename Visitor>
+HWY_INLINE auto visitLayout(const ImageInput& input, Visitor&& visit) {
+  const bool separable = input.rays.separable();
+  if (input.depth.type == DepthView::Type::kUint16) {
+    return separable ? visit(std::true_type(), std::uint16_t())
+                     : visit(std::false_type(), std::uint16_t());
+  }
+  return separable ? visit(std::true_type(), 0.0F) : visit(std::false_type(), 0.0F);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -7,8 +7,8 @@
 namespace dominant_plane_detection {
 
 void TileMoments::resize(int image_width, int image_height) {
-  columns = (image_width + kTileSize - 1) / kTileSize;
-  rows = (image_height + kTileSize - 1) / kTileSize;
+  columns = covering(image_width, kTileSize);
+  rows = covering(image_height, kTileSize);
   const std::size_t padded = (size() + kTileSize - 1) / kTileSize * kTileSize + kTileSize;
   for (auto* values : {&count, &x, &y, &z, &xx, &xy, &xz, &yy, &yz, &zz}) {
     values->resize(padded);

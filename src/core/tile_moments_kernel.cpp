@@ -178,13 +178,9 @@ HWY_INLINE void computeTiles(const ImageInput& input, TileMoments& tiles) {
 }
 
 void computeAllTiles(const ImageInput& input, TileMoments& tiles) {
-  const bool separable = input.rays.separable();
-  if (input.depth.type == DepthView::Type::kUint16) {
-    separable ? computeTiles<true, std::uint16_t>(input, tiles)
-              : computeTiles<false, std::uint16_t>(input, tiles);
-  } else {
-    separable ? computeTiles<true, float>(input, tiles) : computeTiles<false, float>(input, tiles);
-  }
+  visitLayout(input, [&](auto separable, auto pixel) HWY_ATTR {
+    computeTiles<separable.value, decltype(pixel)>(input, tiles);
+  });
 }
 
 }  // namespace HWY_NAMESPACE

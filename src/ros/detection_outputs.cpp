@@ -2,9 +2,10 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
+#include <algorithm>
+
 #include "ros/detection_messages.h"
 #include "ros/ground_outline.h"
-#include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -25,11 +26,10 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
   plane_ = node.advertise<DominantPlane>(topics::kPlane, kQueue, changed, changed);
   coefficients_ =
       node.advertise<pcl_msgs::ModelCoefficients>(topics::kCoefficients, kQueue, changed, changed);
-  obstacles_ =
-      node.advertise<sensor_msgs::PointCloud2>(topics::kObstacles, kQueue, changed, changed);
-  ground_ = node.advertise<sensor_msgs::PointCloud2>(topics::kGround, kQueue, changed, changed);
-  drop_offs_ =
-      node.advertise<sensor_msgs::PointCloud2>(topics::kDropOffs, kQueue, changed, changed);
+  for (LabelledCloud& cloud : clouds_) {
+    cloud.publisher =
+        node.advertise<sensor_msgs::PointCloud2>(cloud.topic, kQueue, changed, changed);
+  }
   outline_ =
       node.advertise<geometry_msgs::PolygonStamped>(topics::kOutline, kQueue, changed, changed);
   markers_ =
@@ -40,12 +40,13 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
 }
 
 bool DetectionOutputs::anybodyListens() const {
-  return plane_.getNumSubscribers() + coefficients_.getNumSubscribers() +
-             obstacles_.getNumSubscribers() + ground_.getNumSubscribers() +
-             drop_offs_.getNumSubscribers() + outline_.getNumSubscribers() +
-             markers_.getNumSubscribers() + mask_.getNumSubscribers() +
-             labels_.getNumSubscribers() >
-         0;
+  const bool to_clouds = std::any_of(clouds_.begin(), clouds_.end(), [](const auto& cloud) {
+    return cloud.publisher.getNumSubscribers() > 0;
+  });
+  return to_clouds || plane_.getNumSubscribers() + coefficients_.getNumSubscribers() +
+                              outline_.getNumSubscribers() + markers_.getNumSubscribers() +
+                              mask_.getNumSubscribers() + labels_.getNumSubscribers() >
+                          0;
 }
 
 void DetectionOutputs::publish(const DetectionInputs::Frame& frame, const Detection& detection,
@@ -64,16 +65,14 @@ void DetectionOutputs::publish(const DetectionInputs::Frame& frame, const Detect
 
 void DetectionOutputs::publishClouds(const DetectionInputs::Frame& frame,
                                      const Detection& detection) {
-  const auto publish = [&](const ros::Publisher& publisher, Label label) {
-    if (publisher.getNumSubscribers() == 0) return;
+  for (const LabelledCloud& cloud : clouds_) {
+    if (cloud.publisher.getNumSubscribers() == 0) continue;
     rays_.build(frame.camera);
-    const sensor_msgs::PointCloud2Ptr cloud = labelledPoints(frame.depth, rays_, detection, label);
-    cloud->header = frame.header;
-    publisher.publish(cloud);
-  };
-  publish(obstacles_, Label::kObstacle);
-  publish(ground_, Label::kGround);
-  publish(drop_offs_, Label::kDropOff);
+    const sensor_msgs::PointCloud2Ptr points =
+        labelledPoints(frame.depth, rays_, detection, cloud.label);
+    points->header = frame.header;
+    cloud.publisher.publish(points);
+  }
 }
 
 void DetectionOutputs::publishShapes(const DetectionInputs::Frame& frame,

@@ -3,12 +3,14 @@
 #include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 
+#include <array>
 #include <functional>
 
 #include "core/ray_table.h"
 #include "dominant_plane_detection/camera_model.h"
 #include "dominant_plane_detection/detection.h"
 #include "ros/detection_inputs.h"
+#include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
 
@@ -28,14 +30,21 @@ class DetectionOutputs {
                double processing_time);
 
  private:
+  /// The points of the pixels with a label.
+  struct LabelledCloud {
+    const char* topic;
+    Label label;
+    ros::Publisher publisher;
+  };
+
   void publishClouds(const DetectionInputs::Frame& frame, const Detection& detection);
   void publishShapes(const DetectionInputs::Frame& frame, const Detection& detection);
 
   ros::Publisher plane_;
   ros::Publisher coefficients_;
-  ros::Publisher obstacles_;
-  ros::Publisher ground_;
-  ros::Publisher drop_offs_;
+  std::array<LabelledCloud, 3> clouds_{{{topics::kObstacles, Label::kObstacle, {}},
+                                        {topics::kGround, Label::kGround, {}},
+                                        {topics::kDropOffs, Label::kDropOff, {}}}};
   ros::Publisher outline_;
   ros::Publisher markers_;
   image_transport::Publisher mask_;
