@@ -15,13 +15,14 @@ HWY_BEFORE_NAMESPACE();
 namespace dominant_plane_detection {
 namespace HWY_NAMESPACE {
 
-/// A reading counts 1; one within twice the band this much more, so that one sum holds both counts.
-constexpr float kWithin = 64.0F;
+/// A reading counts 1, one within twice the band this much more and one within the band its square
+/// more, so that one sum holds all three counts of a block's 16 pixels.
+constexpr int kDigit = 32;
 
 /// Sums over the rows of a block, a number each column; as wide as a tile, so two blocks.
 struct ColumnSums {
   float height[kTileSize];  ///< [m]
-  float count[kTileSize];   ///< [#] readings + kWithin * [#] those within twice the band
+  float count[kTileSize];   ///< [#] see kDigit
 };
 
 template <bool kSeparable, typename Pixel>
@@ -37,9 +38,11 @@ HWY_INLINE void sumColumns(const PixelRow<Pixel>* rows, int row_count, const Rea
       const auto band = rule.band(point);
       const auto cut = hn::Min(hn::Max(height, hn::Neg(band)), band);
       height_sum = hn::Add(height_sum, hn::IfThenElseZero(point.valid, cut));
-      const auto within = hn::And(point.valid, hn::Le(hn::Abs(height), hn::Mul(two, band)));
+      const auto within = hn::And(point.valid, hn::Le(hn::Abs(height), band));
+      const auto near = hn::And(point.valid, hn::Le(hn::Abs(height), hn::Mul(two, band)));
       count = hn::Add(count, hn::IfThenElseZero(point.valid, hn::Set(d, 1.0F)));
-      count = hn::Add(count, hn::IfThenElseZero(within, hn::Set(d, kWithin)));
+      count = hn::Add(count, hn::IfThenElseZero(near, hn::Set(d, float{kDigit})));
+      count = hn::Add(count, hn::IfThenElseZero(within, hn::Set(d, float{kDigit * kDigit})));
     }
     hn::StoreU(height_sum, d, sums.height + i);
     hn::StoreU(count, d, sums.count + i);
@@ -55,12 +58,13 @@ HWY_INLINE void storeBlock(const ColumnSums& sums, int first, int pixels, std::s
     height += sums.height[i];
     counts += static_cast<int>(sums.count[i]);
   }
-  const int count = counts % static_cast<int>(kWithin);
-  const int within = counts / static_cast<int>(kWithin);
+  const int count = counts % kDigit;
+  const int near = counts / kDigit % kDigit;
+  const int within = counts / (kDigit * kDigit);
   blocks.sum[block] = height;
   blocks.count[block] = static_cast<float>(count);
-  blocks.tall[block] = 2 * (count - within) >= pixels;
-  blocks.off[block] = 2 * within < pixels;
+  blocks.beyond[block] = 2 * (count - within) >= pixels;
+  blocks.off[block] = 2 * near < pixels;
 }
 
 template <bool kSeparable, typename Pixel>
@@ -110,7 +114,7 @@ void computeBlockHeights(const ImageInput& input, const LabelRule& rule, BlockHe
   blocks.rows = covering(input.depth.height, kBlockSize);
   blocks.sum.resize(blocks.size());
   blocks.count.resize(blocks.size());
-  blocks.tall.resize(blocks.size());
+  blocks.beyond.resize(blocks.size());
   blocks.off.resize(blocks.size());
   HWY_DYNAMIC_DISPATCH(computeAllBlocks)(input, rule, blocks);
 }

@@ -19,8 +19,8 @@ struct BlockHeights {
   int rows = 0;              ///< [#]
   std::vector<float> sum;    ///< [m] of the heights of the readings, cut at the band of the rule
   std::vector<float> count;  ///< [#] readings
-  std::vector<std::uint8_t> tall;  ///< 1 where half of the pixels are beyond twice the band
-  /// 1 where less than half of the pixels are within it: something tall, or nothing to be read.
+  std::vector<std::uint8_t> beyond;  ///< 1 where half of the pixels are beyond the band
+  /// 1 where less than half are within twice the band: something tall, or nothing to be read.
   std::vector<std::uint8_t> off;
 
   std::size_t size() const {

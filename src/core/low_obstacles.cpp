@@ -84,9 +84,9 @@ void LowObstacles::look(const ImageInput& input, const LabelRule& rule,
   local_ground_.fit(blocks_, tiles, input.rays, rule, limits.local_error,
                     kWindowWidths * limits.min_width);
   widen(blocks_.off, unsure_);
-  widen(blocks_.tall, near_tall_);
-  for (std::size_t tile = 0; tile < near_tall_.size(); ++tile) {
-    if (near_tall_[tile] && tiles[tile] == kNearGround) tiles[tile] = kSmeared;
+  widen(blocks_.beyond, near_beyond_);
+  for (std::size_t tile = 0; tile < near_beyond_.size(); ++tile) {
+    if (near_beyond_[tile] && tiles[tile] == kNearGround) tiles[tile] = kSmeared;
   }
 }
 

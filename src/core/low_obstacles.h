@@ -36,7 +36,8 @@ struct GroundLoss {
 /// other pixels at an obstacle's edge that are neither on it nor on the ground are unknown.
 ///
 /// Next to what is tall, and to where nothing can be read, depth is smeared over some pixels:
-/// there is no evidence in such tiles and those about them.
+/// there is no evidence in such tiles and those about them. Next to what is beyond the band may be
+/// its foot: there, what is farther from the plane than the narrow band is unknown.
 class LowObstacles {
  public:
   /// Reads the heights of all blocks, and the ground about them.
@@ -82,8 +83,8 @@ class LowObstacles {
   BlockHeights blocks_;
   LocalGround local_ground_;
   std::vector<std::uint8_t> marked_tiles_, in_row_;  ///< of `widen`
-  std::vector<std::uint8_t> near_tall_;  ///< 1 for tiles that show something tall, and those about
-  std::vector<std::uint8_t> unsure_;     ///< the same with those where nothing can be read
+  std::vector<std::uint8_t> near_beyond_;  ///< 1 for tiles beyond the band, and those about them
+  std::vector<std::uint8_t> unsure_;       ///< 1 for tiles that are off, and those about them
   std::vector<float> reach_;        ///< [m] of a level's blocks: height of the evidence about them
   std::vector<std::uint8_t> seen_;  ///< what became of each pixel in this level
   std::vector<Pixel> evidence_blocks_;  ///< of the level: column and row

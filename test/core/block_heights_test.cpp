@@ -45,7 +45,7 @@ TEST_P(BlockHeightsOfSize, AreSumsOfCutHeights) {
   for (int y = 0; y < blocks.rows; ++y) {
     for (int x = 0; x < blocks.columns; ++x) {
       float sum = 0.0F;
-      int count = 0, within = 0, pixels = 0;
+      int count = 0, within = 0, near = 0, pixels = 0;
       for (int v = 4 * y; v < std::min(4 * y + 4, depth.height); ++v) {
         for (int u = 4 * x; u < std::min(4 * x + 4, depth.width); ++u, ++pixels) {
           const float z = depth.at(u, v);
@@ -54,14 +54,15 @@ TEST_P(BlockHeightsOfSize, AreSumsOfCutHeights) {
           const float band = 0.01F + 0.007F * z * z;
           sum += std::clamp(height, -band, band);
           ++count;
-          within += std::abs(height) <= 2.0F * band;
+          within += std::abs(height) <= band;
+          near += std::abs(height) <= 2.0F * band;
         }
       }
       const auto at = static_cast<std::size_t>(y * blocks.columns + x);
       EXPECT_NEAR(blocks.sum[at], sum, 1e-5F) << x << ", " << y;
       EXPECT_EQ(blocks.count[at], static_cast<float>(count)) << x << ", " << y;
-      EXPECT_EQ(blocks.off[at] != 0, 2 * within < pixels) << x << ", " << y;
-      EXPECT_EQ(blocks.tall[at] != 0, 2 * (count - within) >= pixels) << x << ", " << y;
+      EXPECT_EQ(blocks.off[at] != 0, 2 * near < pixels) << x << ", " << y;
+      EXPECT_EQ(blocks.beyond[at] != 0, 2 * (count - within) >= pixels) << x << ", " << y;
       off_blocks += blocks.off[at];
     }
   }

@@ -32,6 +32,7 @@ struct Truth {
   Eigen::Vector3d normal;
   double distance = 0.0;
   std::vector<std::uint8_t> bin;    ///< 1: the bin, above the ground band
+  std::vector<std::uint8_t> foot;   ///< 1: the bin within it, but three sigma(z) above the floor
   std::vector<std::uint8_t> floor;  ///< 1: the floor
 };
 
@@ -44,8 +45,9 @@ class DriveTruth {
   Truth at(const virtual_kinect::FrameRecord& record, const sensor_msgs::Image& image) const {
     const Eigen::Isometry3d pose = scene_.path.at(record.scene_time).pose();
     const Rendering rendering = renderer_.render(pose, {});
-    Truth truth{rendering.normal, rendering.distance, {}, {}};
+    Truth truth{rendering.normal, rendering.distance, {}, {}, {}};
     truth.bin.resize(rendering.depth.size());
+    truth.foot.resize(rendering.depth.size());
     truth.floor.resize(rendering.depth.size());
     const auto* readings = reinterpret_cast<const std::uint16_t*>(image.data.data());
     const Parameters parameters;
@@ -61,9 +63,12 @@ class DriveTruth {
       const Eigen::Vector3d point = pose * (z * ray);
       const bool of_bin = (point.head<2>() - kBin).norm() < kBinRadius + 0.002 && point.z() > 0.0 &&
                           point.z() < kBinHeight + 0.002;
-      // Its foot, within the ground band, may be unknown.
       const double band = parameters.ground_band.at(z, parameters.noise);
-      truth.bin[i] = of_bin && point.z() > std::max(0.01, band) ? 1 : 0;
+      const bool above_band = point.z() > std::max(0.01, band);
+      truth.bin[i] = of_bin && above_band ? 1 : 0;
+      truth.foot[i] =
+          of_bin && !above_band && point.z() > std::max(0.01, 3.0 * parameters.noise.sigma(z)) ? 1
+                                                                                               : 0;
     }
     return truth;
   }
@@ -94,6 +99,7 @@ TEST(Drive, EveryFrameHasTheTruePlaneAndTheBin) {
   Manager manager;
   Listener<DominantPlane> planes(node, "plane_detection/plane");
   Listener<sensor_msgs::PointCloud2> clouds(node, "plane_detection/obstacles");
+  Listener<sensor_msgs::PointCloud2> grounds(node, "plane_detection/ground");
   // Kept until the end, so that every frame has a buffer of its own; its record is asked for before
   // it is forgotten.
   std::vector<sensor_msgs::ImageConstPtr> images;
@@ -119,7 +125,11 @@ TEST(Drive, EveryFrameHasTheTruePlaneAndTheBin) {
   std::map<ros::Time, sensor_msgs::PointCloud2ConstPtr> cloud_of;
   for (const auto& cloud : clouds.messages()) cloud_of[cloud->header.stamp] = cloud;
 
+  std::map<ros::Time, sensor_msgs::PointCloud2ConstPtr> ground_of;
+  for (const auto& cloud : grounds.messages()) ground_of[cloud->header.stamp] = cloud;
+
   double worst_height = 0.0, worst_angle = 0.0, worst_bin = 1.0, worst_floor = 0.0;
+  std::size_t foot = 0, foot_ground = 0;
   std::size_t compared = 0, with_bin = 0;
   for (const auto& plane : planes.messages()) {
     const auto image = image_of.find(plane->header.stamp);
@@ -144,6 +154,14 @@ TEST(Drive, EveryFrameHasTheTruePlaneAndTheBin) {
       floor += truth.floor[i];
       floor_wrong += truth.floor[i] != 0 && listed ? 1 : 0;
     }
+    const auto ground_cloud = ground_of.find(plane->header.stamp);
+    if (ground_cloud != ground_of.end()) {
+      const std::set<std::size_t> ground = drive.pixelsOf(*ground_cloud->second);
+      for (std::size_t i = 0; i < truth.foot.size(); ++i) {
+        foot += truth.foot[i];
+        foot_ground += truth.foot[i] != 0 && ground.count(i) != 0 ? 1 : 0;
+      }
+    }
     if (bin > 0) {
       ++with_bin;
       worst_bin = std::min(worst_bin, static_cast<double>(bin_found) / static_cast<double>(bin));
@@ -154,13 +172,17 @@ TEST(Drive, EveryFrameHasTheTruePlaneAndTheBin) {
   std::cout << compared << " planes against the truth, worst: height " << 1e3 * worst_height
             << " mm, normal " << worst_angle * 180.0 / M_PI << " deg; obstacle cloud, worst of "
             << with_bin << ": " << 100.0 * worst_bin << " % of the bin, " << 100.0 * worst_floor
-            << " % of the floor\n";
+            << " % of the floor; ground cloud: " << foot_ground << " of " << foot
+            << " pixels of the bin's foot\n";
   EXPECT_GE(compared, enough * 9 / 10);
   EXPECT_GE(with_bin, enough * 9 / 10);
   EXPECT_LT(worst_height, 0.003);
   EXPECT_LT(worst_angle, 0.2 * M_PI / 180.0);
   EXPECT_GE(worst_bin, 0.95);
   EXPECT_LE(worst_floor, 0.001);
+  // The foot may be unknown, but is not for driving on.
+  EXPECT_GT(foot, 1000U);
+  EXPECT_LE(foot_ground, foot / 20);
 }
 
 }  // namespace
