@@ -56,13 +56,13 @@ void labels(benchmark::State& state) {
   const ReferenceImage& image = scene().images.front();
   const Parameters p;
   GroundSegmentation segmentation;
-  const std::vector<std::uint8_t> everywhere(80 * 60, 1);
+  const std::vector<std::uint8_t> everywhere(80 * 60, 1), nowhere(80 * 60, 0);
   std::vector<std::uint8_t> labels;
   const DepthView view = depth();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(segmentation.label({view, table, {view.metres_per_unit, 0.5F, 4.0F}},
-                                                image.up, image.height,
-                                                {p.noise, p.ground_band, {}}, everywhere, labels));
+    benchmark::DoNotOptimize(segmentation.label(
+        {view, table, {view.metres_per_unit, 0.5F, 4.0F}}, image.up, image.height,
+        {p.noise, p.ground_band, {}}, {everywhere, nowhere}, labels));
   }
 }
 BENCHMARK(labels)->Unit(benchmark::kMicrosecond);

@@ -25,7 +25,8 @@ const char* stateName(State state);
 
 /// What a pixel shows, one byte a pixel.
 enum class Label : std::uint8_t {
-  kUnknown = 0,  ///< no reading, out of range, a speck at the ground's height, or an edge's smear
+  kUnknown = 0,  ///< no reading, out of range but for drop-offs, a speck at the ground's height, or
+                 ///< an edge's smear
   kGround = 1,
   kObstacle = 2,  ///< above the ground
   kDropOff = 3,   ///< below the ground

@@ -22,6 +22,7 @@ struct Parameters {
   double range_min = 0.5;  ///< [m] nearest depth that is trusted
   double range_max = 4.0;  ///< [m] farthest depth that is trusted
   NoiseModel noise;        ///< sigma(z)
+  NoiseModel smooth_error{0.0013, 0.001};  ///< [m] rms of large parts of a floor over its plane
 
   int seeds = 64;                  ///< [#] most seeds that are tried
   int subsampling = 2;             ///< [px] n of "every n-th point of every n-th row"; kdtree only

@@ -186,8 +186,9 @@ class DominantPlaneDetector::Implementation {
   const Detection& accept(const ImageInput& input, const PlaneSelection& selection) {
     const HessePlane& plane = selection.plane();
     const Eigen::Vector3d normal = -plane.normal;
-    const SegmentationCounts counts = segmentation_.label(
-        input, normal, plane.distance, segmentationLimits(), grid_.ground(), detection_.labels);
+    const SegmentationCounts counts =
+        segmentation_.label(input, normal, plane.distance, segmentationLimits(),
+                            {grid_.ground(), grid_.otherSurfaces()}, detection_.labels);
     if (counts.ground < selection.minPoints()) {
       Sentence sentence{};
       std::snprintf(

@@ -1,7 +1,10 @@
 #include "core/grid_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "core/label_kernel.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -29,12 +32,14 @@ void GridSearch::run(const Image& image, const Parameters& parameters, PlaneSele
 void GridSearch::start(const Image& image, const Parameters& parameters) {
   tiles_ = &image.tiles;
   piece_limits_ = {parameters.join_pieces, image.min_piece};
+  smooth_error_ = parameters.smooth_error;
   limits_.set(*tiles_, growthThresholds(parameters));
   judge_.start(*tiles_, limits_);
   region_.tiles.clear();
   region_.member.assign(tiles_->count.size(), 0);
   ground_tiles_.start(*tiles_, tileAngle(image.camera));
   taken_.assign(tiles_->count.size(), 0);
+  other_.assign(tiles_->count.size(), 0);
 }
 
 void GridSearch::search(const Parameters& parameters, Seeds seeds) {
@@ -53,6 +58,7 @@ void GridSearch::search(const Parameters& parameters, Seeds seeds) {
 void GridSearch::collectGround(const Image& image, const Parameters& parameters,
                                const HessePlane& plane, const std::vector<std::size_t>& region) {
   start(image, parameters);
+  other_surfaces_.assign(tiles_->count.size(), 0);
   const bool any = collectSurface({plane, std::numeric_limits<float>::infinity(), 0}, region);
   if (any) {
     ground_ = ground_tiles_.ground();
@@ -90,19 +96,84 @@ bool GridSearch::tryRegion(std::size_t tile) {
   return true;
 }
 
-/// Keeps a region that is a surface, with the pieces of its plane.
+/// Keeps the surfaces of what was grown as one: more than one, if they differ by less than gamma.
 void GridSearch::finishRegion(const TileRegion& grown) {
-  const std::optional<SurfacePlane> surface = decideAgain(grown);
-  if (!surface || !check_.isSurface(judge_, region_)) return;
+  std::fill(other_.begin(), other_.end(), std::uint8_t{0});
+  is_level_ = false;
+  finishPart(grown, kMaxSplits);
+}
+
+/// @param splits how often the part may be told into two surfaces.
+void GridSearch::finishPart(const TileRegion& part, int splits) {
+  const std::optional<SurfacePlane> surface = decideAgain(part);
+  if (!surface) return;
   region_.plane = surface->plane;
-  joinPieces(surface->level);
+  if (splits > 0) {
+    around_.fill(ground_tiles_.ground(), *tiles_);
+    around_.plane = region_.plane;
+    if (split_.find(judge_, around_, smooth_error_)) {
+      finishSides(splits - 1);
+      return;
+    }
+  }
+  finishSurface(*surface);
+}
+
+/// Each surface without the other one's tiles.
+void GridSearch::finishSides(int splits) {
+  Parts& parts = parts_[static_cast<std::size_t>(splits)];
+  parts.sides = split_.sides();
+  parts.other = other_;
+  is_level_ = true;
+  for (std::size_t i = 0; i < parts.sides.size(); ++i) {
+    other_ = parts.other;
+    for (const std::size_t tile : parts.sides[1 - i].tiles) {
+      other_[tile] = static_cast<std::uint8_t>(splits + 1);
+    }
+    finishPart(parts.sides[i], splits);
+  }
+}
+
+/// Keeps a region that is a surface, with the pieces of its plane.
+void GridSearch::finishSurface(const SurfacePlane& surface) {
+  if (!check_.isSurface(judge_, region_)) return;
+  joinPieces(surface.level);
   effort_->joined += region_.tiles.size();
-  const std::size_t best = selection_->points();
-  const State verdict = selection_->consider(region_.plane, region_.points);
+  const double nearest = is_level_ ? nearestPoint() : std::numeric_limits<double>::infinity();
+  const State verdict = selection_->consider(region_.plane, region_.points, nearest);
   // A surface that is no ground may have been put together from parts of one that is.
   if (verdict != State::kFound && seeds_ == Seeds::kPromising) return;
   for (const std::size_t tile : region_.tiles) take(tile);
-  if (selection_->points() > best) ground_ = ground_tiles_.ground();
+  if (!selection_->tookLast()) return;
+  ground_ = ground_tiles_.ground();
+  placeOtherSurfaces();
+}
+
+/// Finds out on which side of the region's plane most of each of the other surfaces is.
+void GridSearch::placeOtherSurfaces() {
+  other_surfaces_.assign(other_.size(), 0);
+  if (!is_level_) return;
+  std::array<double, kMaxSplits + 1> over{};  // [m] summed over points
+  const HessePlane& plane = region_.plane;
+  for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
+    if (other_[tile] == 0) continue;
+    over[other_[tile]] -=
+        static_cast<double>(tiles_->count[tile]) * plane.signedDistance(tiles_->centre(tile));
+  }
+  for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
+    if (other_[tile] != 0) other_surfaces_[tile] = over[other_[tile]] > 0.0 ? kAbove : kBelow;
+  }
+}
+
+/// @return [m] from the camera's foot on the region's plane to the nearest of its tiles.
+double GridSearch::nearestPoint() const {
+  const Eigen::Vector3d& normal = region_.plane.normal;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t tile : region_.tiles) {
+    const Eigen::Vector3d centre = tiles_->centre(tile);
+    least = std::min(least, (centre - centre.dot(normal) * normal).squaredNorm());
+  }
+  return std::sqrt(least);
 }
 
 /// Looks for the one surface in what was grown, and decides again what belongs to it. What is much
@@ -135,10 +206,10 @@ bool GridSearch::collectSurface(const SurfacePlane& surface,
   judge_.setPlane(surface.plane, surface.plane.distance * surface.plane.normal, surface.level);
   judge_.judgeAll();
   for (const std::size_t tile : grown) {
-    if (judge_.onPlane(tile)) region_.add(tile, *tiles_);
+    if (judge_.onPlane(tile) && !other_[tile]) region_.add(tile, *tiles_);
   }
   if (region_.tiles.empty()) return false;
-  ground_tiles_.collect(judge_, region_, piece_limits_);
+  ground_tiles_.collect(judge_, region_, piece_limits_, other_);
   return true;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/ground_tiles.h"
@@ -9,6 +11,7 @@
 #include "core/plane_selection.h"
 #include "core/seed_search.h"
 #include "core/surface_check.h"
+#include "core/surface_split.h"
 #include "core/tile_growth.h"
 #include "core/tile_judge.h"
 #include "core/tile_limits.h"
@@ -39,6 +42,9 @@ class GridSearch : private RegionSource {
   /// @return 1 for the tiles of the selected plane's region, padded like the moments.
   /// @pre the last `run` found a plane, or `collectGround` was called.
   const std::vector<std::uint8_t>& ground() const { return ground_; }
+  /// @return kAbove or kBelow for the tiles of the surfaces that it was told from, else 0; padded
+  /// like the moments.
+  const std::vector<std::uint8_t>& otherSurfaces() const { return other_surfaces_; }
 
  private:
   /// Which seeds regions are grown from.
@@ -46,6 +52,15 @@ class GridSearch : private RegionSource {
     kPromising,  ///< those whose tiles are not clearly too tilted to be ground
     kAll,
   };
+  /// How often what was grown as one may be told into two surfaces: it may show three of them, or
+  /// the second look tells better than the first.
+  static constexpr int kMaxSplits = 2;
+  /// The two surfaces of a split, and the tiles that belong to neither.
+  struct Parts {
+    std::array<TileRegion, 2> sides;
+    std::vector<std::uint8_t> other;
+  };
+
   void start(const Image& image, const Parameters& parameters);
   void search(const Parameters& parameters, Seeds seeds);
   bool available(std::size_t tile) const override {
@@ -54,9 +69,14 @@ class GridSearch : private RegionSource {
   std::size_t availablePoints() const override { return available_points_; }
   bool tryRegion(std::size_t tile) override;
   void finishRegion(const TileRegion& grown);
+  void finishPart(const TileRegion& part, int splits);
+  void finishSides(int splits);
+  void finishSurface(const SurfacePlane& surface);
   std::optional<SurfacePlane> decideAgain(const TileRegion& grown);
   bool collectSurface(const SurfacePlane& surface, const std::vector<std::size_t>& grown);
   void joinPieces(float level);
+  double nearestPoint() const;
+  void placeOtherSurfaces();
   void take(std::size_t tile);
 
   const TileMoments* tiles_ = nullptr;
@@ -65,15 +85,24 @@ class GridSearch : private RegionSource {
   TileGrowth growth_;
   TileRegion region_;                      ///< what was grown, decided again
   std::vector<std::size_t> tiles_so_far_;  ///< of the region, while it is decided again
+  TileRegion around_;                      ///< the region and its rim
+  SurfaceSplit split_;
+  std::array<Parts, kMaxSplits> parts_;
+  bool is_level_ = false;  ///< the region is one of several surfaces
+  /// The split that a tile went to another surface by, counted from the last one to the first, or
+  /// 0: other surfaces' tiles do not join.
+  std::vector<std::uint8_t> other_;
   SurfaceCheck check_;
   GroundTiles ground_tiles_;
   SeedOrder order_;
   RandomDraw draw_;
   GroundTiles::Limits piece_limits_{};
+  NoiseModel smooth_error_;
   std::vector<std::uint8_t> taken_;   ///< 1 for tiles of regions: they neither seed nor join
   std::vector<std::uint8_t> seeded_;  ///< 1 for tiles that were seeds
   std::size_t available_points_ = 0;  ///< [px] in tiles that are not taken
   std::vector<std::uint8_t> ground_;
+  std::vector<std::uint8_t> other_surfaces_;
   Seeds seeds_ = Seeds::kPromising;
   PlaneSelection* selection_ = nullptr;
   Effort* effort_ = nullptr;

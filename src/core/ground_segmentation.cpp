@@ -27,16 +27,23 @@ LabelRule labelRule(const Eigen::Vector3d& normal, double distance,
 
 SegmentationCounts GroundSegmentation::label(const ImageInput& input, const Eigen::Vector3d& normal,
                                              double distance, const SegmentationLimits& limits,
-                                             const std::vector<std::uint8_t>& region,
+                                             const SurfaceTiles& tiles,
                                              std::vector<std::uint8_t>& labels) {
   labels.resize(static_cast<std::size_t>(input.depth.width) *
                 static_cast<std::size_t>(input.depth.height));
   const int columns = covering(input.depth.width, kTileSize);
   const int rows = covering(input.depth.height, kTileSize);
-  widenTiles(columns, rows, region, in_row_, tile_kinds_);
+  widenTiles(columns, rows, tiles.ground, in_row_, tile_kinds_);
+  const std::size_t size = tile_kinds_.size();
+  for (std::size_t i = 0; i < size; ++i) {  // they say nothing about the ground
+    if (tiles.other[i]) tile_kinds_[i] = kElsewhere;
+  }
   const LabelRule rule = labelRule(normal, distance, limits);
   const bool low = limits.low.false_alarm_rate > 0.0;
   if (low) low_obstacles_.look(input, rule, limits.low, tile_kinds_);
+  for (std::size_t i = 0; i < size; ++i) {
+    if (tiles.other[i]) tile_kinds_[i] = tiles.other[i];
+  }
   LabelSums sums = runLabelKernel(input, rule, tile_kinds_.data(), labels.data());
   if (low) {
     const GroundLoss loss = low_obstacles_.mark(labels);

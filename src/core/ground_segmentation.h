@@ -24,19 +24,23 @@ struct SegmentationCounts {
   double mean_square_error = 0.0;  ///< [m^2] Eq. 8 over these; 0 if there are none
 };
 
+/// Where a plane's surface is, and where surfaces are that are no part of it although they are near
+/// the plane. Row-major; as many as cover the image, or more.
+struct SurfaceTiles {
+  const std::vector<std::uint8_t>& ground;  ///< 1 for its tiles
+  const std::vector<std::uint8_t>& other;   ///< kAbove or kBelow for theirs, else 0
+};
+
 /// Labels every pixel by its height over a plane. Ground is where the plane's region is: pixels
 /// within the band in its tiles and those next to them, which the region may only touch. Elsewhere
-/// something else crosses the plane's height, and what it is stays unknown.
+/// something else crosses the plane's height, and what it is stays unknown, but on another surface.
 class GroundSegmentation {
  public:
   /// @param normal [-] unit normal from the plane to the camera.
   /// @param distance [m] camera's height over the plane.
-  /// @param region 1 for the tiles of the plane's region, row-major; as many as cover the image, or
-  /// more.
   /// @param labels one `Label` a pixel, row-major; resized to the image.
   SegmentationCounts label(const ImageInput& input, const Eigen::Vector3d& normal, double distance,
-                           const SegmentationLimits& limits,
-                           const std::vector<std::uint8_t>& region,
+                           const SegmentationLimits& limits, const SurfaceTiles& tiles,
                            std::vector<std::uint8_t>& labels);
 
  private:

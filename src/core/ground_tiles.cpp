@@ -42,12 +42,13 @@ bool hasSamePlane(const TileJudge& judge, const TileRegion& piece, const HessePl
 
 }  // namespace
 
-void GroundTiles::collect(TileJudge& judge, TileRegion& region, const Limits& limits) {
+void GroundTiles::collect(TileJudge& judge, TileRegion& region, const Limits& limits,
+                          const std::vector<std::uint8_t>& other) {
   judge.judgeAll();
   const std::size_t size = judge.tiles().size();
   ground_.assign(judge.tiles().count.size(), 0);
   pieces_.clear();
-  seen_.assign(judge.tiles().count.size(), 0);
+  seen_ = other;
   for (const std::size_t tile : growth_.surround(judge, region.tiles, seen_).tiles) {
     ground_[tile] = seen_[tile] = 1;
     if (judge.onPlane(tile) && !region.member[tile]) region.add(tile, judge.tiles());

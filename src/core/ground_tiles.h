@@ -31,7 +31,9 @@ class GroundTiles {
   /// @param judge with the region's plane.
   /// @param region tiles of it that lie on the plane; what else lies on it and hangs together with
   /// them is added.
-  void collect(TileJudge& judge, TileRegion& region, const Limits& limits);
+  /// @param other not 0 for tiles of other surfaces, padded like the moments.
+  void collect(TileJudge& judge, TileRegion& region, const Limits& limits,
+               const std::vector<std::uint8_t>& other);
 
   /// @return 1 for the tiles of region, rim and pieces, padded like the moments.
   const std::vector<std::uint8_t>& ground() const { return ground_; }
@@ -41,7 +43,7 @@ class GroundTiles {
  private:
   TileGrowth growth_;
   std::vector<std::uint8_t> ground_;
-  std::vector<std::uint8_t> seen_;      ///< 1 for tiles that were looked at
+  std::vector<std::uint8_t> seen_;      ///< not 0 for tiles that were looked at
   std::vector<std::size_t> beginning_;  ///< of what hangs together
   std::vector<std::size_t> pieces_;
 };

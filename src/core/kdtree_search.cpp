@@ -87,9 +87,8 @@ bool KdtreeSearch::tryRegion(std::size_t cell) {
   if (!given_up) ++effort_->regions;
   effort_->joined += region.sequence.size();
   const auto fit = region.moments.fit();
-  const std::size_t best = selection_->points();
   if (fit) selection_->consider(fit->plane, region.sequence.size() * pixels_per_point_);
-  if (selection_->points() > best) region_ = region.sequence;
+  if (fit && selection_->tookLast()) region_ = region.sequence;
   return true;
 }
 

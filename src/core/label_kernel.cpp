@@ -24,8 +24,8 @@ struct VectorSums {
 
 /// Labels the pixels of one vector.
 template <TileKind kKind>
-HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, VectorSums& sums,
-                            std::uint8_t* labels) {
+HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, float range_max,
+                            VectorSums& sums, std::uint8_t* labels) {
   const Floats d;
   const hn::Rebind<std::int32_t, Floats> wide;
   const hn::Rebind<std::uint8_t, Floats> bytes;
@@ -40,14 +40,24 @@ HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, Vector
   };
   const auto off_plane = hn::IfThenElse(hn::RebindMask(wide, hn::Gt(height, hn::Zero(d))),
                                         constant(Label::kObstacle), constant(Label::kDropOff));
-  const auto on_plane = kKind == kElsewhere
-                            ? constant(Label::kUnknown)
-                            : hn::IfThenElse(hn::RebindMask(wide, ground), constant(Label::kGround),
-                                             constant(Label::kUnknown));
-  const auto any = hn::IfThenElse(hn::RebindMask(wide, in_band), on_plane, off_plane);
-  const auto label = hn::IfThenElseZero(hn::RebindMask(wide, points.valid), any);
+  const auto unknown = constant(Label::kUnknown);
+  auto in_band_label = unknown;
+  if (kKind == kAbove || kKind == kBelow) {
+    const auto to_surface = kKind == kAbove ? height : hn::Neg(height);
+    const auto on_surface =
+        hn::Gt(to_surface, hn::Mul(hn::Set(d, kOnPlane), rule.narrowBand(points)));
+    in_band_label = hn::IfThenElse(hn::RebindMask(wide, on_surface), off_plane, unknown);
+  } else if (kKind != kElsewhere) {
+    in_band_label = hn::IfThenElse(hn::RebindMask(wide, ground), constant(Label::kGround), unknown);
+  }
+  const auto any = hn::IfThenElse(hn::RebindMask(wide, in_band), in_band_label, off_plane);
+  auto label = hn::IfThenElseZero(hn::RebindMask(wide, points.valid), any);
+  if (HWY_UNLIKELY(!hn::AllTrue(d, points.valid))) {
+    const auto below = rule.isBelowFarthest(points, height, range_max);
+    label = hn::IfThenElse(hn::RebindMask(wide, below), constant(Label::kDropOff), label);
+  }
   hn::StoreU(hn::DemoteTo(bytes, label), bytes, labels);
-  if (kKind == kElsewhere) return;
+  if (kKind != kNearGround && kKind != kSmeared) return;
   sums.ground = hn::Add(sums.ground, hn::IfThenElseZero(ground, hn::Set(d, 1.0F)));
   // Without a reading the height is not a number.
   const auto counted = hn::IfThenElseZero(ground, height);
@@ -55,14 +65,18 @@ HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, Vector
 }
 
 /// The same for a tile of any kind: mostly that of the vector before.
-HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, std::uint8_t tile,
-                            VectorSums& sums, std::uint8_t* labels) {
+HWY_INLINE void labelVector(const Points& points, const VectorRule& rule, float range_max,
+                            std::uint8_t tile, VectorSums& sums, std::uint8_t* labels) {
   if (tile == kNearGround) {
-    labelVector<kNearGround>(points, rule, sums, labels);
+    labelVector<kNearGround>(points, rule, range_max, sums, labels);
   } else if (tile == kElsewhere) {
-    labelVector<kElsewhere>(points, rule, sums, labels);
+    labelVector<kElsewhere>(points, rule, range_max, sums, labels);
+  } else if (tile == kSmeared) {
+    labelVector<kSmeared>(points, rule, range_max, sums, labels);
+  } else if (tile == kAbove) {
+    labelVector<kAbove>(points, rule, range_max, sums, labels);
   } else {
-    labelVector<kSmeared>(points, rule, sums, labels);
+    labelVector<kBelow>(points, rule, range_max, sums, labels);
   }
 }
 
@@ -83,7 +97,7 @@ HWY_INLINE LabelSums labelImage(const ImageInput& input, const LabelRule& rule,
     VectorSums sums{hn::Zero(d), hn::Zero(d)};
     for (int u = 0; u < whole; u += step) {
       const auto points = loadPoints<kSeparable>(row, u, range);
-      labelVector(points, vector_rule, tiles[u / kTileSize], sums, labels + u);
+      labelVector(points, vector_rule, range.max, tiles[u / kTileSize], sums, labels + u);
     }
     if (whole < width) {
       PaddedRow<Pixel> padded;
@@ -92,7 +106,7 @@ HWY_INLINE LabelSums labelImage(const ImageInput& input, const LabelRule& rule,
       std::uint8_t rest_labels[kTileSize];
       for (int i = 0; i < kTileSize; i += step) {
         const auto points = loadPoints<kSeparable>(rest, i, range);
-        labelVector(points, vector_rule, tiles[columns - 1], sums, rest_labels + i);
+        labelVector(points, vector_rule, range.max, tiles[columns - 1], sums, rest_labels + i);
       }
       std::copy_n(rest_labels, width - whole, labels + whole);
     }

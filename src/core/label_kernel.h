@@ -11,8 +11,13 @@ namespace dominant_plane_detection {
 enum TileKind : std::uint8_t {
   kElsewhere = 0,  ///< not the plane's region: within the band pixels are unknown
   kNearGround,     ///< the plane's region or next to it: within the band pixels are ground
-  kSmeared,        ///< the same, next to what blurs it: ground within the narrow band, else unknown
+  kSmeared,  ///< the same, at the foot of what is beyond the band: ground within the narrow band
+  kAbove,    ///< a surface above the plane: what is above the plane is obstacle
+  kBelow,    ///< a surface below the plane: what is below the plane is drop-off
 };
+
+/// [-] Of the narrow band: what is as near to the plane is no obstacle and no drop-off.
+constexpr float kOnPlane = 0.6F;
 
 /// A plane and the bands about it: |normal . r + distance| <= band + band_z2 z^2.
 struct LabelRule {
@@ -30,7 +35,8 @@ struct LabelSums {
   double square_height = 0.0;  ///< [m^2] summed over these
 };
 
-/// Writes the label of every pixel, row-major.
+/// Writes the label of every pixel, row-major. A reading beyond the range is a drop-off where it is
+/// below twice the band and the plane should have been seen within the range.
 /// @param tiles the `TileKind` of each tile, row-major.
 LabelSums runLabelKernel(const ImageInput& input, const LabelRule& rule, const std::uint8_t* tiles,
                          std::uint8_t* labels);

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <limits>
+
 #include "core/label_kernel.h"
 #include "core/pixel_rows-inl.h"
 
@@ -33,11 +35,7 @@ class VectorRule {
   }
 
   /// @return [m] over the plane; not a number without a reading.
-  HWY_INLINE Vector height(const Points& points) const {
-    const auto along_ray =
-        hn::MulAdd(normal_x_, points.ray_x, hn::MulAdd(normal_y_, points.ray_y, normal_z_));
-    return hn::MulAdd(points.z, along_ray, distance_);
-  }
+  HWY_INLINE Vector height(const Points& points) const { return heightAt(points, points.z); }
   /// @return [m]
   HWY_INLINE Vector band(const Points& points) const {
     return hn::MulAdd(hn::Mul(points.z, points.z), band_z2_, band_);
@@ -46,8 +44,28 @@ class VectorRule {
   HWY_INLINE Vector narrowBand(const Points& points) const {
     return hn::MulAdd(hn::Mul(points.z, points.z), narrow_z2_, narrow_);
   }
+  /// @param height [m] of the points.
+  /// @return whether the reading, beyond the range, is below twice the band, and the plane is not
+  /// beyond the range.
+  HWY_INLINE hn::Mask<Floats> isBelowFarthest(const Points& points, Vector height,
+                                              float range_max) const {
+    const Floats d;
+    const auto farthest = hn::Set(d, range_max);
+    const auto endless = hn::Set(d, std::numeric_limits<float>::infinity());
+    const auto beyond = hn::And(hn::Gt(points.z, farthest), hn::Lt(points.z, endless));
+    const auto plane_within = hn::Le(heightAt(points, farthest), hn::Zero(d));
+    const auto below = hn::Lt(height, hn::Mul(hn::Set(d, -2.0F), band(points)));
+    return hn::And(beyond, hn::And(plane_within, below));
+  }
 
  private:
+  /// @return [m] the height over the plane where a point's ray has a depth [m].
+  HWY_INLINE Vector heightAt(const Points& points, Vector z) const {
+    const auto along_ray =
+        hn::MulAdd(normal_x_, points.ray_x, hn::MulAdd(normal_y_, points.ray_y, normal_z_));
+    return hn::MulAdd(z, along_ray, distance_);
+  }
+
   Vector normal_x_, normal_y_, normal_z_, distance_, band_, band_z2_, narrow_, narrow_z2_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/tile_moments.h"
+#include "core/window_sums.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -14,40 +15,6 @@ constexpr float kClip = 2.5F;       // [-] in local errors
 constexpr float kFirstClip = 4.0F;  // [-] of the first look, against the plane itself
 /// [-] Share of a window that tells a height; with less, that of the level before stays.
 constexpr float kMinSupport = 0.25F;
-
-/// Rows of blocks from `first` up to and without `end`.
-struct Rows {
-  int first, end;
-};
-
-/// Sums over the windows of some rows; what is outside the image counts 0.
-/// @param column_sum is overwritten.
-void sumWindows(const std::vector<float>& values, int columns, int rows, Rows range,
-                std::vector<float>& column_sum, std::vector<float>& sums) {
-  const auto width = static_cast<std::size_t>(columns);
-  column_sum.assign(width + 2 * kReach, 0.0F);
-  sums.resize(values.size());
-  const auto row = [&](int y) { return values.data() + static_cast<std::size_t>(y) * width; };
-  float* inside = column_sum.data() + kReach;
-  const int before = range.first - kReach;
-  for (int y = before - kReach; y < range.end; ++y) {
-    if (y + kReach < rows && y + kReach >= 0) {
-      const float* enters = row(y + kReach);
-      for (std::size_t x = 0; x < width; ++x) inside[x] += enters[x];
-    }
-    if (y - kReach - 1 >= std::max(before, 0)) {
-      const float* leaves = row(y - kReach - 1);
-      for (std::size_t x = 0; x < width; ++x) inside[x] -= leaves[x];
-    }
-    if (y < range.first) continue;
-    float* out = sums.data() + static_cast<std::size_t>(y) * width;
-    const float* from = column_sum.data();
-    for (std::size_t x = 0; x < width; ++x) {
-      out[x] = from[x] + from[x + 1] + from[x + 2] + from[x + 3] + from[x + 4] + from[x + 5] +
-               from[x + 6];
-    }
-  }
-}
 
 /// [blocks] How far beyond the rows that are searched an obstacle's growth looks at the ground.
 constexpr int kBeyond = 4;
@@ -184,8 +151,10 @@ void LocalGround::smooth(GroundLevel& level, const NoiseModel& local_error, floa
     weight[at] = counts;
     weighted[at] = counts * mean[at];
   }
-  sumWindows(weight_, level.columns, level.rows, kept, column_sum_, window_weight_);
-  sumWindows(weighted_, level.columns, level.rows, kept, column_sum_, window_sum_);
+  window_weight_.resize(level.size());
+  window_sum_.resize(level.size());
+  sumWindows<kReach>(weight, level.columns, level.rows, kept, column_sum_, window_weight_.data());
+  sumWindows<kReach>(weighted, level.columns, level.rows, kept, column_sum_, window_sum_.data());
   level.support.resize(level.size());
   const float* const window_weight = window_weight_.data();
   const float* const window_sum = window_sum_.data();

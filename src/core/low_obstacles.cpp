@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/tile_moments.h"
+#include "core/tile_neighbours.h"
 #include "core/widen_tiles.h"
 #include "dominant_plane_detection/detection.h"
 
@@ -14,9 +15,9 @@ namespace {
 /// has to stay below to be ground.
 constexpr float kOnIt = 0.4F;
 constexpr float kOnGround = 0.2F;
-/// [-] Of the narrow band: what is as near to the plane stays ground.
-constexpr float kOnPlane = 0.6F;
 constexpr int kEdge = 3;  // [px]
+/// [-] Of the narrow band: the mean of tiles that are the foot of what they hang together with.
+constexpr float kFoot = 2.0F;
 /// [-] Share of a window that has to be ground, for evidence of something that stands on it.
 constexpr float kMinSupport = 0.4F;
 /// [-] Windows are at least this much wider than the narrowest obstacle: it must not fill them.
@@ -85,8 +86,28 @@ void LowObstacles::look(const ImageInput& input, const LabelRule& rule,
                     kWindowWidths * limits.min_width);
   widen(blocks_.off, unsure_);
   widen(blocks_.beyond, near_beyond_);
+  spreadFeet(tiles);
+}
+
+/// The foot of what is beyond the band: tiles next to it, and tiles off the plane that hang
+/// together with these.
+void LowObstacles::spreadFeet(std::vector<std::uint8_t>& tiles) {
+  const GroundLevel& level = local_ground_.tiles();
+  feet_.clear();
+  const auto take = [&](std::size_t tile) {
+    if (tiles[tile] != kNearGround) return;
+    tiles[tile] = kSmeared;
+    feet_.push_back(tile);
+  };
   for (std::size_t tile = 0; tile < near_beyond_.size(); ++tile) {
-    if (near_beyond_[tile] && tiles[tile] == kNearGround) tiles[tile] = kSmeared;
+    if (near_beyond_[tile]) take(tile);
+  }
+  for (std::size_t next = 0; next < feet_.size(); ++next) {
+    forEachNeighbour(feet_[next], level.columns, level.rows, [&](std::size_t tile) {
+      const float z = level.depth[tile];
+      const float narrow = rule_.narrow + rule_.narrow_z2 * z * z;
+      if (std::abs(level.mean[tile]) > kFoot * narrow) take(tile);
+    });
   }
 }
 

@@ -37,7 +37,8 @@ struct GroundLoss {
 ///
 /// Next to what is tall, and to where nothing can be read, depth is smeared over some pixels:
 /// there is no evidence in such tiles and those about them. Next to what is beyond the band may be
-/// its foot: there, what is farther from the plane than the narrow band is unknown.
+/// its foot, and in tiles off the plane that hang together with it: there, what is farther from the
+/// plane than the narrow band is unknown.
 class LowObstacles {
  public:
   /// Reads the heights of all blocks, and the ground about them.
@@ -62,6 +63,7 @@ class LowObstacles {
     int left, right, top, bottom;  ///< [px]
   };
 
+  void spreadFeet(std::vector<std::uint8_t>& tiles);
   void widen(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& wide);
   bool isUnsure(const GroundLevel& level, int x, int y) const;
   void search(const GroundLevel& level, std::vector<std::uint8_t>& labels);
@@ -84,6 +86,7 @@ class LowObstacles {
   LocalGround local_ground_;
   std::vector<std::uint8_t> marked_tiles_, in_row_;  ///< of `widen`
   std::vector<std::uint8_t> near_beyond_;  ///< 1 for tiles beyond the band, and those about them
+  std::vector<std::size_t> feet_;          ///< tiles, in the order they were found
   std::vector<std::uint8_t> unsure_;       ///< 1 for tiles that are off, and those about them
   std::vector<float> reach_;        ///< [m] of a level's blocks: height of the evidence about them
   std::vector<std::uint8_t> seen_;  ///< what became of each pixel in this level

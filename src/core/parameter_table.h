@@ -52,6 +52,12 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
       p.noise.constant);
   visit(Info{"noise_quadratic", "1/m", 0, 0.1, "standard deviation of depth per squared depth"},
         p.noise.quadratic);
+  visit(Info{"smooth_error_constant", "m", 0.00001, 0.1,
+             "constant part of the rms of 112 x 112 pixels of a floor over its plane"},
+        p.smooth_error.constant);
+  visit(Info{"smooth_error_quadratic", "1/m", 0, 0.1,
+             "rms of 112 x 112 pixels of a floor over its plane per squared depth"},
+        p.smooth_error.quadratic);
   visit(Info{"seeds", "#", 1, 10000, "most seeds that are tried"}, p.seeds);
   visit(Info{"subsampling", "px", 1, 16, "every n-th point of every n-th row (kdtree only)"},
         p.subsampling);

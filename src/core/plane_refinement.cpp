@@ -26,7 +26,7 @@ constexpr double kMinCondition = 1e-7;
 /// [-] A quarter of normally distributed numbers is within this many standard deviations.
 constexpr float kQuartile = 0.3186F;
 /// [-] Standard deviations that belong to the surface; the scatter may double with distance.
-constexpr float kScatters = 4.0F;
+constexpr float kScatters = 3.0F;
 /// [-] Smallest level in sigma(z); the scatter of exact readings is 0.
 constexpr float kMinLevel = 0.3F;
 

@@ -22,7 +22,7 @@ struct SurfacePlane {
 /// and its plane lie on neither. Therefore planes through three of its tiles compete for the
 /// densest heights first, and the best moves there by narrow weights; then the scatter about it is
 /// measured where it is densest, by the quarter of the points that is nearest to it. What lies
-/// beyond four of its standard deviations is not of this surface. Where one surface is all there
+/// beyond three of its standard deviations is not of this surface. Where one surface is all there
 /// is, that leaves nothing out.
 /// @return nothing if too few tiles determine a plane.
 std::optional<SurfacePlane> findSurface(const TileJudge& judge, const TileRegion& region);

@@ -6,16 +6,27 @@
 
 namespace dominant_plane_detection {
 
-State PlaneSelection::consider(const HessePlane& plane, std::size_t points) {
+State PlaneSelection::consider(const HessePlane& plane, std::size_t points, double nearest) {
+  const Candidate candidate{plane, points, nearest};
   const bool large = points >= minPoints();
   const State verdict = large ? checkPose(plane) : State::kTooSmall;
-  if (verdict == State::kFound) {
-    if (points > best_.points) best_ = {plane, points};
-  } else if (points > refused_.points) {
-    refused_ = {plane, points};
+  took_last_ = verdict == State::kFound && beatsBest(candidate);
+  if (took_last_) {
+    best_ = candidate;
+    largest_ = std::max(largest_, points);
+  } else if (verdict != State::kFound && points > refused_.points) {
+    refused_ = candidate;
     refusal_ = verdict;
   }
   return verdict;
+}
+
+bool PlaneSelection::beatsBest(const Candidate& candidate) const {
+  constexpr double kLike = 1.25;
+  const auto ours = static_cast<double>(candidate.points), best = static_cast<double>(best_.points);
+  const bool levels = std::isfinite(candidate.nearest) && std::isfinite(best_.nearest);
+  const bool like = ours < kLike * best && static_cast<double>(largest_) < kLike * ours;
+  return levels && like ? candidate.nearest < best_.nearest : ours > best;
 }
 
 bool PlaneSelection::clearlyTooTilted(const HessePlane& plane) const {

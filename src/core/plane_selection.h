@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "core/hesse_plane.h"
@@ -20,15 +21,20 @@ struct PlaneLimits {
   std::size_t min_points;       ///< [px]
 };
 
-/// Keeps the largest plane that is within the limits, and remembers why the largest one that is not
-/// was refused.
+/// Keeps the largest plane that is within the limits, of like ones the nearest, and remembers why
+/// the largest one that is not was refused.
 class PlaneSelection {
  public:
   explicit PlaneSelection(const PlaneLimits& limits) : limits_(limits) {}
 
   /// @param points [px] that lie on the plane.
+  /// @param nearest [m] from the camera's foot on the plane to where it begins, if it is one of
+  /// several levels: among those of like size, within a quarter, the nearest wins.
   /// @return kFound if it could be the ground, otherwise why not.
-  State consider(const HessePlane& plane, std::size_t points);
+  State consider(const HessePlane& plane, std::size_t points,
+                 double nearest = std::numeric_limits<double>::infinity());
+  /// @return whether the plane that was considered last is the best one.
+  bool tookLast() const { return took_last_; }
 
   /// @param plane of a few tiles, not yet grown.
   /// @return whether it is tilted by so much more than allowed that growing cannot make it right.
@@ -51,14 +57,18 @@ class PlaneSelection {
   struct Candidate {
     HessePlane plane;
     std::size_t points = 0;
+    double nearest = std::numeric_limits<double>::infinity();  ///< [m]
   };
 
+  bool beatsBest(const Candidate& candidate) const;
   State checkPose(const HessePlane& plane) const;
   double tilt(const HessePlane& plane) const;
 
   PlaneLimits limits_;
   Candidate best_;
+  std::size_t largest_ = 0;  ///< [px] of those that ever were the best
   Candidate refused_;
+  bool took_last_ = false;
   State refusal_ = State::kNoRegion;
 };
 

@@ -26,7 +26,8 @@ class RegionSource {
 };
 
 /// Tries cells as seeds, drawn at random from the lower half of the image and then from the rest,
-/// until `seeds` were tried or no region that is left can be larger than the best.
+/// until `seeds` were tried or no region that is left can be larger than the best. (One that is a
+/// little smaller and nearer may be left: levels compete as parts of one region.)
 /// @param draw restarted by the caller; its range is set here.
 /// @return [#] seeds tried; 0 when no region could start anywhere.
 inline std::size_t searchSeeds(const SeedOrder& order, std::size_t seeds,

@@ -22,6 +22,15 @@ struct TileRegion {
     tiles.clear();
     points = 0;
   }
+  /// Becomes the tiles that are 1.
+  /// @param chosen padded like the moments.
+  void fill(const std::vector<std::uint8_t>& chosen, const TileMoments& moments) {
+    clear();
+    member.resize(moments.count.size());
+    for (std::size_t tile = 0; tile < moments.size(); ++tile) {
+      if (chosen[tile]) add(tile, moments);
+    }
+  }
   /// @pre the tile is no member.
   void add(std::size_t tile, const TileMoments& moments) {
     member[tile] = 1;

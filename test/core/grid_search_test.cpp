@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 
+#include "core/label_kernel.h"
 #include "support/tile_scene.h"
 
 namespace dominant_plane_detection {
@@ -255,6 +256,45 @@ TEST(GridSearch, AWallDoesNotHideTheGround) {
     EXPECT_EQ(result.tiles(), 12U * 29U);
     EXPECT_EQ(result.selection.points(), 12U * 29U * 64U);
     EXPECT_LT(angleBetween(result.selection.plane(), floor), 1e-4);
+  }
+}
+
+/// A step of 9 mm, within gamma: the smaller part is told from the ground, and on which side of it;
+/// in the next image, smaller and without a step, there is no other surface.
+TEST(GridSearch, AnotherLevelIsNoGround) {
+  GridSearch grid;
+  const auto run = [&grid](const OwnedDepth<float>& depth, const CameraModel& camera) {
+    const TileScene scene(depth, camera);
+    PlaneSelection selection({-Eigen::Vector3d::UnitY(), 1.05, 0.0, 10.0, 500});
+    Effort effort;
+    grid.run({scene.tiles, camera, 100}, {}, selection, effort);
+    return selection;
+  };
+  for (const double step : {0.009, -0.009}) {
+    OwnedDepth<float> depth = everywhere(ground(0.9, 1.0));
+    paintTiles(depth, kCamera, ground(0.9, 1.0 - step),
+               [](int column, int) { return column < 12; });
+    const PlaneSelection selection = run(depth, kCamera);
+    ASSERT_TRUE(selection.found());
+    EXPECT_NEAR(selection.plane().distance, 1.0, 0.001);
+    int ground_tiles = 0, other_tiles = 0;
+    for (std::size_t tile = 0; tile < 40U * 30U; ++tile) {
+      const std::uint8_t other = grid.otherSurfaces()[tile];
+      EXPECT_FALSE(grid.ground()[tile] && other);
+      ground_tiles += grid.ground()[tile];
+      other_tiles += other == (step > 0.0 ? kAbove : kBelow);
+      EXPECT_TRUE(other == 0 || other == (step > 0.0 ? kAbove : kBelow));
+    }
+    EXPECT_NEAR(ground_tiles, 28 * 30, 2 * 30);
+    EXPECT_NEAR(other_tiles, 12 * 30, 2 * 30);
+  }
+  const CameraModel small = testCamera(160, 120);
+  OwnedDepth<float> flat(small.width, small.height);
+  paintTiles(flat, small, ground(0.9, 1.0), [](int, int) { return true; });
+  ASSERT_TRUE(run(flat, small).found());
+  for (std::size_t tile = 0; tile < 20U * 15U; ++tile) {
+    EXPECT_EQ(grid.otherSurfaces()[tile], 0U);
+    EXPECT_EQ(grid.ground()[tile], 1U);
   }
 }
 

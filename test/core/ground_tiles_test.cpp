@@ -39,7 +39,7 @@ class GroundTilesTest : public testing::Test {
     for (std::size_t i = 0; i < scene.tiles.size(); ++i) {
       if (i % 40 < kRegion) region_.add(i, scene.tiles);
     }
-    ground_tiles_.collect(scene.judge, region_, {join_pieces, min_piece});
+    ground_tiles_.collect(scene.judge, region_, {join_pieces, min_piece}, scene.taken);
     std::size_t count = 0, points = 0;
     for (std::size_t i = 0; i < scene.tiles.size(); ++i) {
       const bool first = i % 40 < kRegion;
@@ -117,7 +117,7 @@ TEST_F(GroundTilesTest, APieceFarFromASmallRegionJoins) {
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) region_.add(scene.at(column, row), scene.tiles);
   }
-  ground_tiles_.collect(scene.judge, region_, {true, 1});
+  ground_tiles_.collect(scene.judge, region_, {true, 1}, scene.taken);
   EXPECT_EQ(ground_tiles_.pieces().size(), 16U);
 }
 

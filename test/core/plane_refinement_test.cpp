@@ -206,7 +206,7 @@ TEST(PlaneRefinement, ExactReadingsHaveTheSmallestLevel) {
   EXPECT_LT(angleBetween(refined->plane, kFloor), 2e-5);
 }
 
-/// Tiles that are off by a normally distributed height each; four of their standard deviations.
+/// Tiles that are off by a normally distributed height each; three of their standard deviations.
 TEST(PlaneRefinement, TheLevelFollowsTheScatter) {
   for (const double scatter : {0.2, 0.35, 0.5}) {
     OwnedDepth<float> depth(kCamera.width, kCamera.height);
@@ -221,7 +221,7 @@ TEST(PlaneRefinement, TheLevelFollowsTheScatter) {
     TileScene scene(depth, kCamera);
     const auto refined = findSurface(scene.judge, regionOf(scene, facing(1.0), kAll));
     ASSERT_TRUE(refined);
-    EXPECT_NEAR(refined->level, 4.0 * scatter, 0.15 * 4.0 * scatter);
+    EXPECT_NEAR(refined->level, 3.0 * scatter, 0.15 * 3.0 * scatter);
   }
 }
 

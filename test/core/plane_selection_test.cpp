@@ -37,6 +37,27 @@ TEST(PlaneSelection, TheLargestThatCanBeGroundWins) {
   EXPECT_EQ(selection.plane().distance, 1.2);
 }
 
+TEST(PlaneSelection, OfLevelsOfLikeSizeTheNearestWins) {
+  PlaneSelection selection(kLimits);
+  selection.consider(plane(0.0, 1.0), 400, 2.0);
+  EXPECT_TRUE(selection.tookLast());
+  selection.consider(plane(0.0, 1.1), 330, 0.5);
+  EXPECT_TRUE(selection.tookLast());
+  EXPECT_EQ(selection.plane().distance, 1.1);
+  EXPECT_EQ(selection.points(), 330U);
+  selection.consider(plane(0.0, 1.2), 400, 0.6);  // farther
+  EXPECT_FALSE(selection.tookLast());
+  selection.consider(plane(0.0, 1.2), 260, 0.1);  // too small
+  EXPECT_FALSE(selection.tookLast());
+  selection.consider(plane(0.0, 1.3), 350);  // no level of these: larger
+  EXPECT_TRUE(selection.tookLast());
+  selection.consider(plane(0.0, 1.4), 340, 0.1);
+  EXPECT_FALSE(selection.tookLast());
+  selection.consider(plane(0.0, 3.0), 350, 0.1);
+  EXPECT_FALSE(selection.tookLast());
+  EXPECT_EQ(selection.plane().distance, 1.3);
+}
+
 TEST(PlaneSelection, EachLimitIsOne) {
   PlaneSelection selection(kLimits);
   EXPECT_EQ(selection.consider(plane(0.0, 1.0), 99), State::kTooSmall);
