@@ -27,7 +27,7 @@ struct FloorNoiseFigures {
 /// Measures a depth camera's errors on a floor: what config/sensors has of it.
 ///
 /// The floor of an image is where most of 41 x 41 pixels are ground, with all readings there,
-/// however far off the plane. `local` and `neighbour` come from medians, as edges of things that
+/// however far off the plane. All figures but `height` come from medians, as edges of things that
 /// stand on the floor are among them.
 class FloorNoise {
  public:

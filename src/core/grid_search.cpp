@@ -99,7 +99,6 @@ bool GridSearch::tryRegion(std::size_t tile) {
 /// Keeps the surfaces of what was grown as one: more than one, if they differ by less than gamma.
 void GridSearch::finishRegion(const TileRegion& grown) {
   std::fill(other_.begin(), other_.end(), std::uint8_t{0});
-  is_level_ = false;
   finishPart(grown, kMaxSplits);
 }
 
@@ -116,7 +115,7 @@ void GridSearch::finishPart(const TileRegion& part, int splits) {
       return;
     }
   }
-  finishSurface(*surface);
+  finishSurface(*surface, splits < kMaxSplits);
 }
 
 /// Each surface without the other one's tiles.
@@ -124,7 +123,6 @@ void GridSearch::finishSides(int splits) {
   Parts& parts = parts_[static_cast<std::size_t>(splits)];
   parts.sides = split_.sides();
   parts.other = other_;
-  is_level_ = true;
   for (std::size_t i = 0; i < parts.sides.size(); ++i) {
     other_ = parts.other;
     for (const std::size_t tile : parts.sides[1 - i].tiles) {
@@ -135,24 +133,28 @@ void GridSearch::finishSides(int splits) {
 }
 
 /// Keeps a region that is a surface, with the pieces of its plane.
-void GridSearch::finishSurface(const SurfacePlane& surface) {
+/// @param is_level whether it is one of several surfaces.
+void GridSearch::finishSurface(const SurfacePlane& surface, bool is_level) {
   if (!check_.isSurface(judge_, region_)) return;
   joinPieces(surface.level);
   effort_->joined += region_.tiles.size();
-  const double nearest = is_level_ ? nearestPoint() : std::numeric_limits<double>::infinity();
+  const double nearest = is_level ? nearestPoint() : std::numeric_limits<double>::infinity();
   const State verdict = selection_->consider(region_.plane, region_.points, nearest);
   // A surface that is no ground may have been put together from parts of one that is.
   if (verdict != State::kFound && seeds_ == Seeds::kPromising) return;
   for (const std::size_t tile : region_.tiles) take(tile);
   if (!selection_->tookLast()) return;
   ground_ = ground_tiles_.ground();
-  placeOtherSurfaces();
+  if (is_level) {
+    placeOtherSurfaces();
+  } else {
+    other_surfaces_.assign(other_.size(), 0);
+  }
 }
 
 /// Finds out on which side of the region's plane most of each of the other surfaces is.
 void GridSearch::placeOtherSurfaces() {
   other_surfaces_.assign(other_.size(), 0);
-  if (!is_level_) return;
   std::array<double, kMaxSplits + 1> over{};  // [m] summed over points
   const HessePlane& plane = region_.plane;
   for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {

@@ -71,7 +71,7 @@ class GridSearch : private RegionSource {
   void finishRegion(const TileRegion& grown);
   void finishPart(const TileRegion& part, int splits);
   void finishSides(int splits);
-  void finishSurface(const SurfacePlane& surface);
+  void finishSurface(const SurfacePlane& surface, bool is_level);
   std::optional<SurfacePlane> decideAgain(const TileRegion& grown);
   bool collectSurface(const SurfacePlane& surface, const std::vector<std::size_t>& grown);
   void joinPieces(float level);
@@ -88,7 +88,6 @@ class GridSearch : private RegionSource {
   TileRegion around_;                      ///< the region and its rim
   SurfaceSplit split_;
   std::array<Parts, kMaxSplits> parts_;
-  bool is_level_ = false;  ///< the region is one of several surfaces
   /// The split that a tile went to another surface by, counted from the last one to the first, or
   /// 0: other surfaces' tiles do not join.
   std::vector<std::uint8_t> other_;

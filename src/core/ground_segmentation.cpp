@@ -35,12 +35,14 @@ SegmentationCounts GroundSegmentation::label(const ImageInput& input, const Eige
   const int rows = covering(input.depth.height, kTileSize);
   widenTiles(columns, rows, tiles.ground, in_row_, tile_kinds_);
   const std::size_t size = tile_kinds_.size();
-  for (std::size_t i = 0; i < size; ++i) {  // they say nothing about the ground
-    if (tiles.other[i]) tile_kinds_[i] = kElsewhere;
-  }
   const LabelRule rule = labelRule(normal, distance, limits);
   const bool low = limits.low.false_alarm_rate > 0.0;
-  if (low) low_obstacles_.look(input, rule, limits.low, tile_kinds_);
+  if (low) {
+    for (std::size_t i = 0; i < size; ++i) {  // other surfaces say nothing about the ground
+      if (tiles.other[i]) tile_kinds_[i] = kElsewhere;
+    }
+    low_obstacles_.look(input, rule, limits.low, tile_kinds_);
+  }
   for (std::size_t i = 0; i < size; ++i) {
     if (tiles.other[i]) tile_kinds_[i] = tiles.other[i];
   }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "calibration/floor_noise.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
@@ -25,12 +26,12 @@ constexpr const char* kDescription =
     "  detect_planes drive.bag --sensor my_camera.yaml --output result\n";
 
 /// For people, beside the profile.
-void printTable(const FloorNoise& noise) {
+void printTable(std::size_t images, const std::vector<FloorNoiseFigures>& figures) {
   std::fprintf(stderr,
                "%zu images; heights of floor readings over the plane [mm]:\n"
                "  depth [m]   readings      rms  pixel to pixel  local  smooth\n",
-               noise.images());
-  for (const FloorNoiseFigures& f : noise.figures()) {
+               images);
+  for (const FloorNoiseFigures& f : figures) {
     if (f.readings == 0) continue;
     std::fprintf(stderr, "  %.1f to %.1f  %9zu  %7.2f  %14.2f  %5.2f  %6.2f\n", f.nearest,
                  f.farthest, f.readings, 1e3 * f.height, 1e3 * f.neighbour, 1e3 * f.local,
@@ -38,8 +39,7 @@ void printTable(const FloorNoise& noise) {
   }
 }
 
-void printProfile(const FloorNoise& noise) {
-  const std::vector<FloorNoiseFigures> figures = noise.figures();
+void printProfile(std::size_t images, const std::vector<FloorNoiseFigures>& figures) {
   const NoiseModel local = FloorNoise::localError(figures);
   const NoiseModel smooth = FloorNoise::smoothError(figures);
   std::printf(
@@ -48,8 +48,8 @@ void printProfile(const FloorNoise& noise) {
       "local_error_constant: %.2g\nlocal_error_quadratic: %.2g\n\n"
       "# [m], [1/m] rms of 112 x 112 px of a floor over its plane\n"
       "smooth_error_constant: %.2g\nsmooth_error_quadratic: %.2g\n",
-      noise.images(), std::max(local.constant, 1e-5), local.quadratic,
-      std::max(smooth.constant, 1e-5), smooth.quadratic);
+      images, std::max(local.constant, 1e-5), local.quadratic, std::max(smooth.constant, 1e-5),
+      smooth.quadratic);
 }
 
 int run(const SourceArguments& arguments) {
@@ -71,8 +71,9 @@ int run(const SourceArguments& arguments) {
     }
   }
   if (noise.images() == 0) throw std::runtime_error("No image shows a ground plane.");
-  printTable(noise);
-  printProfile(noise);
+  const std::vector<FloorNoiseFigures> figures = noise.figures();
+  printTable(noise.images(), figures);
+  printProfile(noise.images(), figures);
   return failed ? 1 : 0;
 }
 

@@ -298,6 +298,21 @@ TEST(GridSearch, AnotherLevelIsNoGround) {
   }
 }
 
+/// Two levels within gamma, about half of the image each, one of them at the camera's foot: it is
+/// the ground although the other one has some more tiles.
+TEST(GridSearch, OfLikeLevelsTheNearerOneWins) {
+  const auto near = [](int, int row) { return row >= 16; };
+  Parameters parameters;
+  parameters.smooth_error = {0.0003, 0.0002};
+  for (const double step : {0.006, -0.006}) {
+    OwnedDepth<float> depth = everywhere(ground(0.9, 1.0 - step));
+    paintTiles(depth, kCamera, ground(0.9, 1.0), near);
+    const Result result = search(depth, kCamera, parameters);
+    ASSERT_TRUE(result.selection.found());
+    EXPECT_NEAR(result.selection.plane().distance, 1.0, 0.002) << step;
+  }
+}
+
 TEST(GridSearch, PiecesBeyondAGapJoinAndTurnThePlane) {
   const HessePlane floor = ground(0.9, 1.0);
   OwnedDepth<float> depth = everywhere(floor);

@@ -187,6 +187,19 @@ TEST(LowObstacles, NothingIsSaidNextToWhatIsTall) {
 }
 
 /// A box of 1 cm is 3.4 local errors high: 12.2 mm are 4.3 of them, 5 mm are 1.75.
+/// A ramp of 4 degrees, 1.2 m wide, which leaves the band 35 cm from its beginning. From where it
+/// is off the plane by 2.5 sigma(z), half as far, it hangs together with what is beyond the band,
+/// and is no ground.
+TEST(LowObstacles, TheFootOfARampIsNoGround) {
+  const auto on_ramp = [](double x, double y) { return isIn(x, -0.6, 0.6) && isIn(y, 1.2, 2.0); };
+  const auto depth =
+      floorWith([&](double x, double y) { return on_ramp(x, y) ? 0.07 * (y - 1.2) : 0.0; });
+  const auto foot = [](double x, double y) { return isIn(x, -0.3, 0.3) && isIn(y, 1.38, 1.46); };
+  const Detection detection = detectIn(depth);
+  ASSERT_TRUE(detection.found());
+  EXPECT_LT(sharesWhere(detection, depth, foot).ground, 0.1);
+}
+
 TEST(LowObstacles, MoreFalseAlarmsBuyLowerObstacles) {
   const auto depth = floorWith([](double x, double y) { return box(x, y, 0.01); });
   Parameters parameters;

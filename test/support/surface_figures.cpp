@@ -99,8 +99,7 @@ std::optional<SurfaceError> SurfaceImage::fitError(std::size_t surface) const {
     const Eigen::Vector2d ray =
         camera_.ray({static_cast<double>(i % width), static_cast<double>(i / width)});
     const double sigma = noise.sigma(z);
-    moments.add(1.0 / (sigma * sigma), z * Eigen::Vector3d(ray.x(), ray.y(), 1.0),
-                Eigen::Matrix3d::Zero());
+    moments.add(z * Eigen::Vector3d(ray.x(), ray.y(), 1.0), 1.0 / (sigma * sigma));
   }
   const std::optional<PlaneFit> fit = moments.fit();
   if (!fit) return std::nullopt;
