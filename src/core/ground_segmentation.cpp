@@ -51,6 +51,7 @@ SegmentationCounts GroundSegmentation::label(const ImageInput& input, const Eige
     const GroundLoss loss = low_obstacles_.mark(labels);
     sums.ground -= loss.pixels;
     sums.square_height = std::max(sums.square_height - loss.square_height, 0.0);
+    specks_.remove(input, tile_kinds_, limits.low.min_width, labels);
   }
   SegmentationCounts counts;
   counts.ground = sums.ground;

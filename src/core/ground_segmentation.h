@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/drop_off_specks.h"
 #include "core/image_kernel.h"
 #include "core/low_obstacles.h"
 #include "dominant_plane_detection/noise_model.h"
@@ -45,6 +46,7 @@ class GroundSegmentation {
 
  private:
   LowObstacles low_obstacles_;
+  DropOffSpecks specks_;
   std::vector<std::uint8_t> in_row_;      ///< 1 for tiles of the region and their row neighbours
   std::vector<std::uint8_t> tile_kinds_;  ///< `TileKind` of each tile
 };

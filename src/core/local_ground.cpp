@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/tile_moments.h"
-#include "core/window_sums.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -18,10 +17,6 @@ constexpr float kMinSupport = 0.25F;
 
 /// [blocks] How far beyond the rows that are searched an obstacle's growth looks at the ground.
 constexpr int kBeyond = 4;
-
-Rows keptRows(const GroundLevel& level) {
-  return {std::max(level.first_row - kBeyond, 0), std::min(level.end_row + kBeyond, level.rows)};
-}
 
 /// The rows that the windows of these look at.
 Rows readRows(const GroundLevel& level) {
@@ -70,6 +65,10 @@ void halve(const std::vector<float>& from, int from_columns, int from_rows, int 
 }
 
 }  // namespace
+
+Rows keptRows(const GroundLevel& level) {
+  return {std::max(level.first_row - kBeyond, 0), std::min(level.end_row + kBeyond, level.rows)};
+}
 
 float GroundLevel::groundAt(int u, int v) const {
   // In units of blocks, 0 in the middle of the first one.

@@ -7,6 +7,7 @@
 
 #include "core/block_heights.h"
 #include "core/ray_table.h"
+#include "core/window_sums.h"
 #include "dominant_plane_detection/noise_model.h"
 
 namespace dominant_plane_detection {
@@ -35,6 +36,9 @@ struct GroundLevel {
   /// @return [m] the ground's height at a pixel, linear between the blocks.
   float groundAt(int u, int v) const;
 };
+
+/// Rows that are searched, and those about them whose ground is kept.
+Rows keptRows(const GroundLevel& level);
 
 /// The smooth surface of the ground: where a sensor sees a plane, bent by its error.
 ///

@@ -5,19 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/block_heights.h"
-#include "core/local_ground.h"
-#include "dominant_plane_detection/noise_model.h"
+#include "core/obstacle_evidence.h"
 
 namespace dominant_plane_detection {
-
-/// What is an obstacle although it is no higher than the worst error of the sensor.
-struct LowObstacleLimits {
-  double min_height = 0.0;        ///< [m] over the ground about it
-  double min_width = 0.0;         ///< [m] the larger side of its outline in the image
-  double false_alarm_rate = 0.0;  ///< [1/image] of blocks that the local error lifts over the limit
-  NoiseModel local_error;         ///< [m] rms of a block's height over the ground about it
-};
 
 /// What changed among the ground pixels.
 struct GroundLoss {
@@ -25,23 +15,17 @@ struct GroundLoss {
   double square_height = 0.0;  ///< [m^2] summed over these
 };
 
-/// Finds what stands on the ground within the ground band, by its height over the ground nearby.
+/// Labels what stands on the ground within the ground band, by its height over the ground nearby.
 ///
-/// A block is evidence where its mean is higher than the ground about it by more than the local
-/// error explains. How much that is follows from the number of blocks and the rate of false alarms:
-/// were the errors of all blocks independent and normally distributed, that many blocks an image
-/// would exceed it. From such blocks an obstacle grows over the pixels that hang together and reach
-/// 0.4 of its height; where it is narrower than `min_width` it is left alone, as the bumps of the
-/// local error are. What is within 0.6 of the narrow band is on the plane itself and stays ground;
-/// other pixels at an obstacle's edge that are neither on it nor on the ground are unknown.
-///
-/// Next to what is tall, and to where nothing can be read, depth is smeared over some pixels:
-/// there is no evidence in such tiles and those about them. Next to what is beyond the band may be
-/// its foot, and in tiles off the plane that hang together with it: there, what is farther from the
-/// plane than the narrow band is unknown.
+/// From the blocks that are evidence an obstacle grows over the pixels that hang together and reach
+/// 0.4 of its height, and from those down its face: pixels that fall towards the ground at least
+/// half as steeply as a vertical face would. Where it is narrower than `min_width` it is left
+/// alone, as the bumps of the local error are. What is within 0.6 of the narrow band is on the
+/// plane itself and stays ground, but for faces; other pixels at an obstacle's edge that are
+/// neither on it nor on the ground are unknown.
 class LowObstacles {
  public:
-  /// Reads the heights of all blocks, and the ground about them.
+  /// Reads the image's heights.
   /// @param input has to outlive `mark`.
   /// @param rule the plane with the ground band.
   /// @param tiles kElsewhere or kNearGround; those of the latter that are smeared become kSmeared.
@@ -51,47 +35,43 @@ class LowObstacles {
   /// @param labels one `Label` a pixel by the ground band; ground and unknown ones may change.
   GroundLoss mark(std::vector<std::uint8_t>& labels);
 
-  /// @return [-] the height over the ground nearby, in local errors, that is evidence.
-  static double evidence(std::size_t blocks, double false_alarm_rate);
-
  private:
   struct Pixel {
     int u, v;
   };
-  /// The outline of a candidate, grown pixel by pixel.
-  struct Outline {
-    int left, right, top, bottom;  ///< [px]
+  /// A reading in the working range.
+  struct Reading {
+    Eigen::Vector3f ray;
+    float z;       ///< [m]
+    float height;  ///< [m] over the plane
   };
 
-  void spreadFeet(std::vector<std::uint8_t>& tiles);
-  void widen(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& wide);
-  bool isUnsure(const GroundLevel& level, int x, int y) const;
+  bool isInImage(Pixel pixel) const;
+  std::size_t indexOf(Pixel pixel) const;
+  std::optional<Reading> read(Pixel pixel) const;
+  bool isOnGround(const Reading& reading, float ground) const;
   void search(const GroundLevel& level, std::vector<std::uint8_t>& labels);
-  bool isEvidence(const GroundLevel& level, int x, int y) const;
+  void spreadReach(const GroundLevel& level);
   float reachOf(const GroundLevel& level, Pixel pixel) const;
-  void grow(const GroundLevel& level, Pixel start, std::vector<std::uint8_t>& labels);
+  void grow(const GroundLevel& level, Pixel start);
   bool joins(const GroundLevel& level, Pixel pixel);
+  bool joinsFace(const GroundLevel& level, const Reading& above, Pixel pixel);
+  bool isFace(const Reading& above, const Reading& below, float over) const;
+  bool isWide() const;
   bool isInside(Pixel pixel) const;
   void write(const GroundLevel& level, std::vector<std::uint8_t>& labels);
+  void writeEdge(const GroundLevel& level, Pixel pixel, std::vector<std::uint8_t>& labels);
   void change(Pixel pixel, float height, std::uint8_t label, std::vector<std::uint8_t>& labels);
-  std::optional<float> heightOff(Pixel pixel) const;
-  std::size_t indexOf(Pixel pixel) const;
 
+  ObstacleEvidence evidence_;
   const ImageInput* input_ = nullptr;
   LabelRule rule_{};
-  LowObstacleLimits limits_;
-  float evidence_ = 0.0F;  ///< [-] in local errors
+  double min_width_ = 0.0;  ///< [m]
   GroundLoss loss_;
-  BlockHeights blocks_;
-  LocalGround local_ground_;
-  std::vector<std::uint8_t> marked_tiles_, in_row_;  ///< of `widen`
-  std::vector<std::uint8_t> near_beyond_;  ///< 1 for tiles beyond the band, and those about them
-  std::vector<std::size_t> feet_;          ///< tiles, in the order they were found
-  std::vector<std::uint8_t> unsure_;       ///< 1 for tiles that are off, and those about them
+  std::vector<Evidence> blocks_;    ///< of a level
   std::vector<float> reach_;        ///< [m] of a level's blocks: height of the evidence about them
   std::vector<std::uint8_t> seen_;  ///< what became of each pixel in this level
-  std::vector<Pixel> evidence_blocks_;  ///< of the level: column and row
-  std::vector<Pixel> pixels_;           ///< of one candidate
+  std::vector<Pixel> pixels_;       ///< of one candidate
 };
 
 }  // namespace dominant_plane_detection

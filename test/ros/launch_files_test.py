@@ -82,7 +82,7 @@ class Parameters(unittest.TestCase):
             profile = parameters(load(name, sensor="xtion", **arguments), node)
             changed = {key: profile[key] for key in profile if profile[key] != plain[key]}
             self.assertEqual(changed, {"smooth_error_constant": 0.0004, "local_error_constant": 0.0009,
-                                       "local_error_quadratic": 0.00045}, name)
+                                       "local_error_quadratic": 0.0005}, name)
 
 
 class Managers(unittest.TestCase):

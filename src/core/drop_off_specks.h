@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "core/image_kernel.h"
+
+namespace dominant_plane_detection {
+
+/// Finds drop-offs on the ground that are no larger than a bump of the sensor's error.
+///
+/// Far away the error reaches beyond the ground band now and then, and hangs together over some
+/// pixels. A drop-off that matters is wider than the narrowest obstacle, and wider than two tiles
+/// in the image, where errors do not hang together any more.
+class DropOffSpecks {
+ public:
+  /// @param tiles the `TileKind` of each tile: only kNearGround and kSmeared ones are looked at.
+  /// @param min_width [m] the larger side of a drop-off's outline in the image.
+  /// @param labels one `Label` a pixel; smaller drop-offs become unknown.
+  void remove(const ImageInput& input, const std::vector<std::uint8_t>& tiles, double min_width,
+              std::vector<std::uint8_t>& labels);
+
+ private:
+  struct Pixel {
+    int u, v;
+  };
+
+  struct Outline {
+    int left, right, top, bottom;  ///< [px]
+
+    void add(int u, int v) {
+      left = std::min(left, u);
+      right = std::max(right, u);
+      top = std::min(top, v);
+      bottom = std::max(bottom, v);
+    }
+    int side() const { return std::max(right - left, bottom - top) + 1; }
+  };
+
+  bool isLarge(const ImageInput& input, double min_width) const;
+  bool grow(const ImageInput& input, Pixel start, double min_width,
+            const std::vector<std::uint8_t>& labels);
+  void settle(const ImageInput& input, Pixel start, double min_width,
+              std::vector<std::uint8_t>& labels);
+
+  std::vector<std::uint8_t> seen_;  ///< what is known of each pixel
+  std::vector<Pixel> pixels_;       ///< of one piece
+  Outline outline_{};               ///< of these
+};
+
+}  // namespace dominant_plane_detection

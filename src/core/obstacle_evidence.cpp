@@ -1,0 +1,96 @@
+#include "core/obstacle_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dominant_plane_detection {
+namespace {
+
+/// [-] Share of a window that has to be ground, for evidence of something that stands on it; and
+/// where it is less than half, how much more of it may lie on one side.
+constexpr float kMinSupport = 0.4F;
+constexpr float kHalf = 0.5F;
+constexpr float kOneSided = 0.3F;
+constexpr int kSide = 3;  // [blocks] of a window to either side
+/// [-] Windows are at least this much wider than the narrowest obstacle: it must not fill them.
+constexpr double kWindowWidths = 1.5;
+/// [-] Of three blocks' height, or of a ridge's, what the block itself has over the ground about
+/// it: with less, its neighbours are what is high, or the floor close to it is low.
+constexpr float kOwnShare = 0.5F;
+
+/// @return whether there is ground about a block, and not only on one side of it: what is beyond a
+/// window's ground is extrapolated.
+bool isSupported(const GroundLevel& level, int x, int y) {
+  const float support = level.support[level.at(x, y)];
+  if (support < kMinSupport || support >= kHalf) return support >= kHalf;
+  const auto difference = [&](int dx, int dy) {
+    const auto supportAt = [&](int i, int j) {
+      return level.support[level.at(std::clamp(i, 0, level.columns - 1),
+                                    std::clamp(j, level.first_row, level.end_row - 1))];
+    };
+    return std::abs(supportAt(x + dx, y + dy) - supportAt(x - dx, y - dy));
+  };
+  return std::max(difference(kSide, 0), difference(0, kSide)) < kOneSided;
+}
+
+}  // namespace
+
+double ObstacleEvidence::deviations(std::size_t blocks, double false_alarm_rate) {
+  const double share = std::min(false_alarm_rate / static_cast<double>(blocks), 0.5);
+  double low = 0.0, high = 40.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(middle / std::sqrt(2.0)) > share ? low : high) = middle;
+  }
+  return high;
+}
+
+void ObstacleEvidence::look(const ImageInput& input, const LabelRule& rule,
+                            const LowObstacleLimits& limits, std::vector<std::uint8_t>& tiles) {
+  limits_ = limits;
+  computeBlockHeights(input, rule, blocks_);
+  local_ground_.fit(blocks_, tiles, input.rays, rule, limits.local_error,
+                    kWindowWidths * limits.min_width);
+  smeared_.find(blocks_, local_ground_.tiles());
+  smeared_.spreadFeet(local_ground_.tiles(), rule, tiles);
+  std::size_t blocks = 0;
+  for (const GroundLevel& level : local_ground_.levels()) blocks += level.size();
+  deviations_ = static_cast<float>(deviations(blocks, limits.false_alarm_rate));
+}
+
+bool ObstacleEvidence::isHigh(const GroundLevel& level, std::size_t at, float own) const {
+  const float z = level.depth[at];
+  const float limit = deviations_ * (static_cast<float>(limits_.local_error.constant) +
+                                     static_cast<float>(limits_.local_error.quadratic) * z * z);
+  const float over = bumps_.over[at];
+  // Two blocks, next to an edge, average out less than three.
+  const float scale = bumps_.is_floor[at] != 0.0F ? bumps_.scale : 1.0F;
+  if (over >= limit * scale && own >= kOwnShare * over) return true;
+  if (level.block != kBlockSize) return false;
+  const float ridge = ridges_.height(at);
+  return ridge >= limit * ridges_.scale() && own >= kOwnShare * ridge;
+}
+
+bool ObstacleEvidence::isEvidence(const GroundLevel& level, int x, int y) const {
+  const std::size_t at = level.at(x, y);
+  const float own = level.mean[at] - level.ground[at];
+  return own >= static_cast<float>(limits_.min_height) && isHigh(level, at, own) &&
+         level.depth[at] >= level.min_depth && clear_[at] != 0.0F && level.isRead(at) &&
+         isSupported(level, x, y);
+}
+
+void ObstacleEvidence::find(const GroundLevel& level, std::vector<Evidence>& evidence) {
+  smeared_.findClear(level, clear_);
+  bumps_.find(level, clear_, limits_.local_error);
+  if (level.block == kBlockSize) ridges_.find(level, bumps_, limits_.local_error);
+  evidence.clear();
+  evidence.reserve(level.size());
+  for (int y = level.first_row; y < level.end_row; ++y) {
+    for (int x = 0; x < level.columns; ++x) {
+      const std::size_t at = level.at(x, y);
+      if (isEvidence(level, x, y)) evidence.push_back({x, y, level.mean[at] - level.ground[at]});
+    }
+  }
+}
+
+}  // namespace dominant_plane_detection
