@@ -44,6 +44,7 @@ cv::Mat floorMask(const ReferenceSet& set, const ReferenceImage& image) {
       if (point.z() == 0.0 || near) floor.at<std::uint8_t>(v, u) = 255;
     }
   }
+  for (const cv::Rect& object : image.objects) floor(object).setTo(0);
   return floor;
 }
 

@@ -12,7 +12,7 @@ namespace dominant_plane_detection {
 
 /// Where a set's images show floor, and nothing but: the reference mask closed over single readings
 /// that are off. A pixel is floor where 70 % of the 41 x 41 pixels about it are, and its reading is
-/// within six sigma(z) of the reference plane, or missing.
+/// within six sigma(z) of the reference plane, or missing; the image's objects are none.
 /// @return 8-bit, 255 = floor.
 cv::Mat floorMask(const ReferenceSet& set, const ReferenceImage& image);
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct ReferenceImage {
   std::string name;
   cv::Mat depth;                                 ///< 16-bit
   cv::Mat ground;                                ///< 8-bit, 255 = ground
+  std::vector<cv::Rect> objects;                 ///< [px] what stands on it, found by eye
   Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< [-] normal towards the camera, optical frame
   double height = 0.0;                           ///< [m] camera over the plane
 };
