@@ -2,6 +2,7 @@
 // several heights and distances, and beside it what is called obstacle or drop-off on the floors of
 // the same images without them. For the detector, and for a fixed height over its plane.
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -27,7 +28,6 @@ constexpr double kWidth = 0.12;                                             // [
 constexpr double kHeights[] = {0.01, 0.02, 0.03, 0.05};                     // [m]
 constexpr double kDistances[] = {0.7, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5};  // [m]
 constexpr std::size_t kCells = std::size(kDistances) - 1;
-constexpr int kBoxes = 200;     // [#] a cell
 constexpr int kTries = 100000;  // [#] a cell
 constexpr int kPiece = 30;      // [px] a false piece has at least
 
@@ -89,18 +89,24 @@ void draw(const std::string& file, const Labels& labels, const cv::Mat& floor) {
   cv::imwrite(file, picture);
 }
 
+struct Options {
+  int boxes = 200;  ///< [#] a cell
+  std::string pictures;
+  std::vector<std::string> settings;
+};
+
 /// Stands boxes of a height at a distance.
-/// @param visit gets each image with a box, until there were kBoxes.
-/// @return how many there were: where there is no room for them, fewer.
+/// @param visit gets each image with a box.
+/// @return how many there were: where there is no room for them, fewer than asked for.
 int standBoxes(const ReferenceSet& set, const std::vector<FloorObjects>& floors, double height,
-               std::size_t cell, const std::function<void(const StoodIn&)>& visit) {
+               std::size_t cell, int asked, const std::function<void(const StoodIn&)>& visit) {
   std::mt19937 random(static_cast<unsigned>(cell) + 100U * static_cast<unsigned>(1e3 * height));
   std::uniform_int_distribution<std::size_t> any_image(0, floors.size() - 1);
   std::uniform_int_distribution<int> any_column(0, set.camera.width - 1);
   std::uniform_int_distribution<int> any_row(0, set.camera.height - 1);
   std::uniform_real_distribution<double> any_turn(0.0, 1.5707963);
   int boxes = 0;
-  for (int i = 0; i < kTries && boxes < kBoxes; ++i) {
+  for (int i = 0; i < kTries && boxes < asked; ++i) {
     const FloorObjects& floor = floors[any_image(random)];
     const int u = any_column(random), v = any_row(random);
     const double turn = any_turn(random);
@@ -153,11 +159,15 @@ void print(const ReferenceSet& set, const Contestant& contestant) {
   }
 }
 
-void evaluate(const ReferenceSet& set, const std::string& sensor, const std::string& pictures) {
+void evaluate(const ReferenceSet& set, const std::string& sensor, const Options& options) {
   Parameters parameters;
   parameters.range_min = set.range_min;
   parameters.range_max = set.range_max;
   loadParameters(findSensorProfile(sensor), parameters);
+  for (const std::string& setting : options.settings) {
+    const std::size_t equals = setting.find('=');
+    setParameter(parameters, setting.substr(0, equals), setting.substr(equals + 1));
+  }
   DominantPlaneDetector detector(parameters);
   std::vector<Contestant> contestants;
   contestants.push_back(
@@ -176,21 +186,22 @@ void evaluate(const ReferenceSet& set, const std::string& sensor, const std::str
     for (Contestant& each : contestants) {
       count(each.labels(view, detection), image, floors.back().floor(), each.alarms);
     }
-    if (pictures.empty()) continue;
-    draw(pictures + "/" + set.name + "_" + image.name + ".png", detection.labels,
+    if (options.pictures.empty()) continue;
+    draw(options.pictures + "/" + set.name + "_" + image.name + ".png", detection.labels,
          floors.back().floor());
   }
   for (std::size_t i = 0; i < std::size(kHeights); ++i) {
     for (std::size_t cell = 0; cell < kCells; ++cell) {
-      const int boxes = standBoxes(set, floors, kHeights[i], cell, [&](const StoodIn& stood) {
-        const DepthView view(stood.depth.ptr<std::uint16_t>(), stood.depth.cols, stood.depth.rows,
-                             set.metres_per_unit);
-        const Detection& detection = detector.detect(view, set.camera);
-        for (Contestant& each : contestants) {
-          each.found[i][cell] += isFound(each.labels(view, detection), stood.pixels) ? 1 : 0;
-        }
-      });
-      const double room = boxes < kBoxes ? std::nan("") : boxes;
+      const int boxes =
+          standBoxes(set, floors, kHeights[i], cell, options.boxes, [&](const StoodIn& stood) {
+            const DepthView view(stood.depth.ptr<std::uint16_t>(), stood.depth.cols,
+                                 stood.depth.rows, set.metres_per_unit);
+            const Detection& detection = detector.detect(view, set.camera);
+            for (Contestant& each : contestants) {
+              each.found[i][cell] += isFound(each.labels(view, detection), stood.pixels) ? 1 : 0;
+            }
+          });
+      const double room = boxes < options.boxes ? std::nan("") : boxes;
       for (Contestant& each : contestants) each.found[i][cell] /= room;
     }
   }
@@ -200,9 +211,15 @@ void evaluate(const ReferenceSet& set, const std::string& sensor, const std::str
 }  // namespace
 }  // namespace dominant_plane_detection
 
-/// low_obstacles [FOLDER] writes pictures of the floors there.
 int main(int argc, char** argv) {
   namespace dpd = dominant_plane_detection;
+  CLI::App app("How low an obstacle may be", "low_obstacles");
+  dpd::Options options;
+  app.add_option("--boxes", options.boxes, "of each height at each distance")
+      ->capture_default_str();
+  app.add_option("--pictures", options.pictures, "folder for pictures of the floors");
+  app.add_option("--set", options.settings, "NAME=VALUE, a parameter; may be repeated");
+  CLI11_PARSE(app, argc, argv);
   std::printf("boxes of 12 cm found, by distance [m]:");
   for (std::size_t i = 0; i < dpd::kCells; ++i) {
     std::printf(" %g-%g", dpd::kDistances[i], dpd::kDistances[i + 1]);
@@ -215,6 +232,6 @@ int main(int argc, char** argv) {
       std::fprintf(stderr, "no recordings in %s\n", dpd::recordingsFolder().c_str());
       return 1;
     }
-    dpd::evaluate(set, sensor, argc > 1 ? argv[1] : "");
+    dpd::evaluate(set, sensor, options);
   }
 }
