@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/image_kernel.h"
-#include "core/label_kernel.h"
+#include "core/tile_moments.h"
 
 namespace dominant_plane_detection {
 
@@ -13,7 +13,7 @@ namespace dominant_plane_detection {
 constexpr int kBlockSize = 4;
 
 /// Heights over a plane in each image block, row-major. Blocks at the right and lower border may be
-/// partly outside the image.
+/// partly outside the image. Filled by `runLabelKernel`.
 struct BlockHeights {
   int columns = 0;           ///< [#]
   int rows = 0;              ///< [#]
@@ -22,14 +22,26 @@ struct BlockHeights {
   std::vector<std::uint8_t> beyond;  ///< 1 where half of the pixels are beyond the band
   /// 1 where less than half are within twice the band: something tall, or nothing to be read.
   std::vector<std::uint8_t> off;
+  /// Sums over the columns of a row of blocks, before they are summed to blocks.
+  std::vector<float> column_height, column_count;
 
   std::size_t size() const {
     return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   }
+  /// @param width, height [px] of the image.
+  void resize(int width, int height) {
+    columns = covering(width, kBlockSize);
+    rows = covering(height, kBlockSize);
+    sum.resize(size());
+    count.resize(size());
+    beyond.resize(size());
+    off.resize(size());
+    // As many as the widest vector takes at once, and zeros in what is beyond the image.
+    constexpr int kAtOnce = kTileSize * kBlockSize;
+    const auto padded = static_cast<std::size_t>(covering(width, kAtOnce) * kAtOnce);
+    column_height.assign(padded, 0.0F);
+    column_count.assign(padded, 0.0F);
+  }
 };
-
-/// Reads the whole image once.
-/// @param blocks resized to the image and overwritten.
-void computeBlockHeights(const ImageInput& input, const LabelRule& rule, BlockHeights& blocks);
 
 }  // namespace dominant_plane_detection

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/label_kernel.h"
+#include "core/label_rule.h"
 #include "core/tile_moments.h"
 #include "dominant_plane_detection/detection.h"
 

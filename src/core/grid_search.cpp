@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/label_kernel.h"
+#include "core/label_rule.h"
 
 namespace dominant_plane_detection {
 namespace {

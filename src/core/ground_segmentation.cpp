@@ -34,23 +34,20 @@ SegmentationCounts GroundSegmentation::label(const ImageInput& input, const Eige
   const int columns = covering(input.depth.width, kTileSize);
   const int rows = covering(input.depth.height, kTileSize);
   widenTiles(columns, rows, tiles.ground, in_row_, tile_kinds_);
-  const std::size_t size = tile_kinds_.size();
   const LabelRule rule = labelRule(normal, distance, limits);
-  const bool low = limits.low.false_alarm_rate > 0.0;
-  if (low) {
-    for (std::size_t i = 0; i < size; ++i) {  // other surfaces say nothing about the ground
-      if (tiles.other[i]) tile_kinds_[i] = kElsewhere;
-    }
-    low_obstacles_.look(input, rule, limits.low, tile_kinds_);
-  }
-  for (std::size_t i = 0; i < size; ++i) {
+  for (std::size_t i = 0; i < tile_kinds_.size(); ++i) {
     if (tiles.other[i]) tile_kinds_[i] = tiles.other[i];
   }
-  LabelSums sums = runLabelKernel(input, rule, tile_kinds_.data(), labels.data());
+  const bool low = limits.low.false_alarm_rate > 0.0;
+  LabelSums sums =
+      runLabelKernel(input, rule, tile_kinds_.data(), labels.data(), low ? &blocks_ : nullptr);
   if (low) {
-    const GroundLoss loss = low_obstacles_.mark(labels);
-    sums.ground -= loss.pixels;
-    sums.square_height = std::max(sums.square_height - loss.square_height, 0.0);
+    low_obstacles_.look(input, rule, blocks_, limits.low, tile_kinds_);
+    for (const LabelSums& lost : {labelSmeared(input, rule, tile_kinds_.data(), labels.data()),
+                                  low_obstacles_.mark(labels)}) {
+      sums.ground -= lost.ground;
+      sums.square_height = std::max(sums.square_height - lost.square_height, 0.0);
+    }
     specks_.remove(input, tile_kinds_, limits.low.min_width, labels);
   }
   SegmentationCounts counts;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/block_heights.h"
 #include "core/drop_off_specks.h"
 #include "core/image_kernel.h"
 #include "core/low_obstacles.h"
@@ -45,6 +46,7 @@ class GroundSegmentation {
                            std::vector<std::uint8_t>& labels);
 
  private:
+  BlockHeights blocks_;
   LowObstacles low_obstacles_;
   DropOffSpecks specks_;
   std::vector<std::uint8_t> in_row_;      ///< 1 for tiles of the region and their row neighbours

@@ -2,32 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
+#include "core/block_heights.h"
 #include "core/image_kernel.h"
+#include "core/label_rule.h"
 
 namespace dominant_plane_detection {
-
-/// What a tile of pixels shows.
-enum TileKind : std::uint8_t {
-  kElsewhere = 0,  ///< not the plane's region: within the band pixels are unknown
-  kNearGround,     ///< the plane's region or next to it: within the band pixels are ground
-  kSmeared,  ///< the same, at the foot of what is beyond the band: ground within the narrow band
-  kAbove,    ///< a surface above the plane: what is above the plane is obstacle
-  kBelow,    ///< a surface below the plane: what is below the plane is drop-off
-};
-
-/// [-] Of the narrow band: what is as near to the plane is no obstacle and no drop-off.
-constexpr float kOnPlane = 0.6F;
-
-/// A plane and the bands about it: |normal . r + distance| <= band + band_z2 z^2.
-struct LabelRule {
-  float normal[3];         ///< [-]
-  float distance;          ///< [m]
-  float band;              ///< [m]
-  float band_z2;           ///< [1/m]
-  float narrow = 0.0F;     ///< [m]
-  float narrow_z2 = 0.0F;  ///< [1/m]
-};
 
 /// What the kernel counted.
 struct LabelSums {
@@ -35,10 +16,17 @@ struct LabelSums {
   double square_height = 0.0;  ///< [m^2] summed over these
 };
 
-/// Writes the label of every pixel, row-major. A reading beyond the range is a drop-off where it is
-/// below twice the band and the plane should have been seen within the range.
+/// Writes the label of every pixel, row-major, and sums heights in blocks, in one look at the
+/// image. A reading beyond the range is a drop-off where it is below twice the band and the plane
+/// should have been seen within the range.
 /// @param tiles the `TileKind` of each tile, row-major.
+/// @param blocks resized to the image and overwritten; not looked at if null.
 LabelSums runLabelKernel(const ImageInput& input, const LabelRule& rule, const std::uint8_t* tiles,
-                         std::uint8_t* labels);
+                         std::uint8_t* labels, BlockHeights* blocks);
+
+/// Labels the pixels of the tiles that are kSmeared again, which were kNearGround.
+/// @return what is ground no more.
+LabelSums labelSmeared(const ImageInput& input, const LabelRule& rule, const std::uint8_t* tiles,
+                       std::uint8_t* labels);
 
 }  // namespace dominant_plane_detection

@@ -11,7 +11,7 @@
 
 #include <limits>
 
-#include "core/label_kernel.h"
+#include "core/label_rule.h"
 #include "core/pixel_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -44,17 +44,17 @@ class VectorRule {
   HWY_INLINE Vector narrowBand(const Points& points) const {
     return hn::MulAdd(hn::Mul(points.z, points.z), narrow_z2_, narrow_);
   }
-  /// @param height [m] of the points.
+  /// @param height, band [m] of the points.
   /// @return whether the reading, beyond the range, is below twice the band, and the plane is not
   /// beyond the range.
-  HWY_INLINE hn::Mask<Floats> isBelowFarthest(const Points& points, Vector height,
+  HWY_INLINE hn::Mask<Floats> isBelowFarthest(const Points& points, Vector height, Vector band,
                                               float range_max) const {
     const Floats d;
     const auto farthest = hn::Set(d, range_max);
     const auto endless = hn::Set(d, std::numeric_limits<float>::infinity());
     const auto beyond = hn::And(hn::Gt(points.z, farthest), hn::Lt(points.z, endless));
     const auto plane_within = hn::Le(heightAt(points, farthest), hn::Zero(d));
-    const auto below = hn::Lt(height, hn::Mul(hn::Set(d, -2.0F), band(points)));
+    const auto below = hn::Lt(height, hn::Mul(hn::Set(d, -2.0F), band));
     return hn::And(beyond, hn::And(plane_within, below));
   }
 

@@ -103,23 +103,22 @@ void LocalGround::collect(const BlockHeights& blocks) {
 }
 
 /// Turns sums into means, and finds out which blocks are ground.
-/// @param near_ground of tiles; a block of the coarsest level is ground if all of its tiles are.
-void LocalGround::average(const std::vector<std::uint8_t>& near_ground, GroundLevel& level) {
+/// @param kinds of tiles; a block of the coarsest level is ground if all of its tiles are.
+void LocalGround::average(const std::vector<std::uint8_t>& kinds, GroundLevel& level) {
   const int tile_columns = tiles().columns, tile_rows = tiles().rows;
   level.can_support.resize(level.size());
   const Rows kept = readRows(level);
   for (int y = kept.first; y < kept.end; ++y) {
     const int top = y * level.block / kTileSize;
     const int bottom = std::min(((y + 1) * level.block - 1) / kTileSize, tile_rows - 1);
-    const std::uint8_t* upper =
-        near_ground.data() + static_cast<std::ptrdiff_t>(top) * tile_columns;
-    const std::uint8_t* lower =
-        near_ground.data() + static_cast<std::ptrdiff_t>(bottom) * tile_columns;
+    const std::uint8_t* upper = kinds.data() + static_cast<std::ptrdiff_t>(top) * tile_columns;
+    const std::uint8_t* lower = kinds.data() + static_cast<std::ptrdiff_t>(bottom) * tile_columns;
     for (int x = 0; x < level.columns; ++x) {
       const std::size_t at = level.at(x, y);
       const int left = x * level.block / kTileSize;
       const int right = std::min(((x + 1) * level.block - 1) / kTileSize, tile_columns - 1);
-      const bool ground = upper[left] && upper[right] && lower[left] && lower[right];
+      const bool ground = upper[left] == kNearGround && upper[right] == kNearGround &&
+                          lower[left] == kNearGround && lower[right] == kNearGround;
       const bool is_read = level.isRead(at);
       level.mean[at] = is_read ? level.mean[at] / level.count[at] : 0.0F;
       level.can_support[at] = ground && is_read ? 1.0F : 0.0F;
@@ -196,7 +195,7 @@ void LocalGround::start(const GroundLevel* coarser, GroundLevel& level) {
   }
 }
 
-void LocalGround::fit(const BlockHeights& blocks, const std::vector<std::uint8_t>& near_ground,
+void LocalGround::fit(const BlockHeights& blocks, const std::vector<std::uint8_t>& kinds,
                       const RayTable& rays, const LabelRule& plane, const NoiseModel& local_error,
                       double min_window) {
   collect(blocks);
@@ -210,7 +209,7 @@ void LocalGround::fit(const BlockHeights& blocks, const std::vector<std::uint8_t
       level.first_row = 0;
       level.end_row = level.rows;
     }
-    average(near_ground, level);
+    average(kinds, level);
     start(first ? nullptr : &levels_[i + 1], level);
     smooth(level, local_error, first ? kFirstClip : kClip);
     smooth(level, local_error, kClip);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/block_heights.h"
+#include "core/label_rule.h"
 #include "core/ray_table.h"
 #include "core/window_sums.h"
 #include "dominant_plane_detection/noise_model.h"
@@ -50,13 +51,12 @@ Rows keptRows(const GroundLevel& level);
 /// other way round; all levels are kept.
 class LocalGround {
  public:
-  /// @param near_ground 1 for each tile, row-major, of the plane's region or next to it: the others
-  /// have no say.
+  /// @param kinds the `TileKind` of each tile, row-major: those that are not kNearGround have no
+  /// say.
   /// @param local_error [m] rms of a block's height over the ground about it.
   /// @param min_window [m] narrowest window that is of use.
-  void fit(const BlockHeights& blocks, const std::vector<std::uint8_t>& near_ground,
-           const RayTable& rays, const LabelRule& plane, const NoiseModel& local_error,
-           double min_window);
+  void fit(const BlockHeights& blocks, const std::vector<std::uint8_t>& kinds, const RayTable& rays,
+           const LabelRule& plane, const NoiseModel& local_error, double min_window);
 
   /// @return from blocks of 4 pixels to blocks of 16.
   const std::array<GroundLevel, 3>& levels() const { return levels_; }
@@ -65,7 +65,7 @@ class LocalGround {
 
  private:
   void collect(const BlockHeights& blocks);
-  void average(const std::vector<std::uint8_t>& near_ground, GroundLevel& level);
+  void average(const std::vector<std::uint8_t>& kinds, GroundLevel& level);
   void start(const GroundLevel* coarser, GroundLevel& level);
   void smooth(GroundLevel& level, const NoiseModel& local_error, float clip);
 

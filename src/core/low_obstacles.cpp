@@ -29,21 +29,21 @@ int growthReach(const GroundLevel& level) { return level.block == kBlockSize ? 3
 
 }  // namespace
 
-void LowObstacles::look(const ImageInput& input, const LabelRule& rule,
-                        const LowObstacleLimits& limits, std::vector<std::uint8_t>& tiles) {
+void LowObstacles::look(const ImageInput& input, const LabelRule& rule, const BlockHeights& blocks,
+                        const LowObstacleLimits& limits, std::vector<std::uint8_t>& kinds) {
   input_ = &input;
   rule_ = rule;
   min_width_ = limits.min_width;
-  evidence_.look(input, rule, limits, tiles);
+  evidence_.look(input.rays, rule, blocks, limits, kinds);
 }
 
-GroundLoss LowObstacles::mark(std::vector<std::uint8_t>& labels) {
-  loss_ = GroundLoss();
+LabelSums LowObstacles::mark(std::vector<std::uint8_t>& labels) {
+  lost_ = LabelSums();
   pixels_.reserve(std::min(labels.size(), kUsualPixels));
   seen_.reserve(labels.size());
   reach_.reserve(evidence_.ground().levels().front().size());
   for (const GroundLevel& level : evidence_.ground().levels()) search(level, labels);
-  return loss_;
+  return lost_;
 }
 
 bool LowObstacles::isInImage(Pixel pixel) const {
@@ -61,7 +61,7 @@ std::optional<LowObstacles::Reading> LowObstacles::read(Pixel pixel) const {
   if (!(z >= input_->range.min && z <= input_->range.max)) return std::nullopt;
   const Eigen::Vector3f ray = input_->rays.ray(pixel.u, pixel.v);
   const float along = rule_.normal[0] * ray.x() + rule_.normal[1] * ray.y() + rule_.normal[2];
-  return Reading{ray, z, z * along + rule_.distance};
+  return Reading{pixel, z, z * along + rule_.distance};
 }
 
 bool LowObstacles::isOnGround(const Reading& reading, float ground) const {
@@ -73,8 +73,8 @@ void LowObstacles::change(Pixel pixel, float height, std::uint8_t label,
                           std::vector<std::uint8_t>& labels) {
   std::uint8_t& now = labels[indexOf(pixel)];
   if (now == kGroundLabel) {
-    ++loss_.pixels;
-    loss_.square_height += static_cast<double>(height) * static_cast<double>(height);
+    ++lost_.ground;
+    lost_.square_height += static_cast<double>(height) * static_cast<double>(height);
   }
   now = label;
 }
@@ -88,8 +88,9 @@ void LowObstacles::search(const GroundLevel& level, std::vector<std::uint8_t>& l
     const int left = block.x * level.block, top = block.y * level.block;
     for (int v = top; v < std::min(top + level.block, input_->depth.height); ++v) {
       for (int u = left; u < std::min(left + level.block, input_->depth.width); ++u) {
-        if (!joins(level, {u, v})) continue;
-        grow(level, {u, v});
+        pixels_.clear();
+        if (!join(level, {u, v})) continue;
+        grow(level);
         if (isWide()) write(level, labels);
       }
     }
@@ -115,23 +116,20 @@ float LowObstacles::reachOf(const GroundLevel& level, Pixel pixel) const {
   return reach_[level.at(pixel.u / level.block, pixel.v / level.block)];
 }
 
-void LowObstacles::grow(const GroundLevel& level, Pixel start) {
-  pixels_.assign(1, start);
+void LowObstacles::grow(const GroundLevel& level) {
   for (std::size_t next = 0; next < pixels_.size(); ++next) {
-    const Pixel pixel = pixels_[next];
-    const std::optional<Reading> reading = read(pixel);
+    const Reading reading = pixels_[next];  // not a reference: they grow
+    const Pixel pixel = reading.pixel;
     for (int v = pixel.v - 1; v <= pixel.v + 1; ++v) {
       for (int u = pixel.u - 1; u <= pixel.u + 1; ++u) {
-        if (!isInImage({u, v})) continue;
-        if (joins(level, {u, v}) || joinsFace(level, *reading, {u, v})) pixels_.push_back({u, v});
+        if (isInImage({u, v}) && !join(level, {u, v})) joinFace(level, reading, {u, v});
       }
     }
   }
 }
 
-/// Looks at a pixel once.
-/// @return whether it is high enough to belong to the evidence about it.
-bool LowObstacles::joins(const GroundLevel& level, Pixel pixel) {
+/// Looks at a pixel once: it joins if it is high enough to belong to the evidence about it.
+bool LowObstacles::join(const GroundLevel& level, Pixel pixel) {
   std::uint8_t& seen = seen_[indexOf(pixel)];
   if (seen == kTaken || seen == kRefused) return false;
   const float reach = reachOf(level, pixel);
@@ -142,18 +140,20 @@ bool LowObstacles::joins(const GroundLevel& level, Pixel pixel) {
   const float ground = level.groundAt(pixel.u, pixel.v);
   if (isOnGround(*reading, ground) || reading->height - ground <= kOnIt * reach) return false;
   seen = kTaken;
+  pixels_.push_back(*reading);
   return true;
 }
 
 /// @param above a pixel of the obstacle, next to a pixel that does not belong to it by its height.
-bool LowObstacles::joinsFace(const GroundLevel& level, const Reading& above, Pixel pixel) {
+bool LowObstacles::joinFace(const GroundLevel& level, const Reading& above, Pixel pixel) {
   std::uint8_t& seen = seen_[indexOf(pixel)];
   if (seen != kRefused) return false;
   const std::optional<Reading> reading = read(pixel);
-  if (!reading) return false;
+  if (!reading || reading->height >= above.height) return false;
   const float over = reading->height - level.groundAt(pixel.u, pixel.v);
   if (!isFace(above, *reading, over)) return false;
   seen = kTaken;
+  pixels_.push_back(*reading);
   return true;
 }
 
@@ -162,9 +162,11 @@ bool LowObstacles::joinsFace(const GroundLevel& level, const Reading& above, Pix
 /// @param over [m] height of the pixel below over the ground about it.
 bool LowObstacles::isFace(const Reading& above, const Reading& below, float over) const {
   const Eigen::Vector3f up(rule_.normal[0], rule_.normal[1], rule_.normal[2]);
-  const Eigen::Vector3f ahead = above.ray - up.dot(above.ray) * up;
-  const float face_z = above.z * ahead.dot(above.ray) / ahead.dot(below.ray);
-  const float face_fall = above.z * up.dot(above.ray) - face_z * up.dot(below.ray);
+  const Eigen::Vector3f ray = input_->rays.ray(above.pixel.u, above.pixel.v);
+  const Eigen::Vector3f ray_below = input_->rays.ray(below.pixel.u, below.pixel.v);
+  const Eigen::Vector3f ahead = ray - up.dot(ray) * up;
+  const float face_z = above.z * ahead.dot(ray) / ahead.dot(ray_below);
+  const float face_fall = above.z * up.dot(ray) - face_z * up.dot(ray_below);
   const CameraModel& camera = input_->rays.camera();
   const float pixel = above.z / static_cast<float>(std::max(camera.fx, camera.fy));
   return face_fall > kSteep * pixel && above.height - below.height >= kSteep * face_fall &&
@@ -172,13 +174,14 @@ bool LowObstacles::isFace(const Reading& above, const Reading& below, float over
 }
 
 bool LowObstacles::isWide() const {
-  const auto [left, right] = std::minmax_element(pixels_.begin(), pixels_.end(),
-                                                 [](Pixel a, Pixel b) { return a.u < b.u; });
-  const auto [top, bottom] = std::minmax_element(pixels_.begin(), pixels_.end(),
-                                                 [](Pixel a, Pixel b) { return a.v < b.v; });
-  const int side = std::max(right->u - left->u, bottom->v - top->v) + 1;
-  const Pixel middle = pixels_[pixels_.size() / 2];
-  const auto z = static_cast<double>(metresAt(input_->depth, middle.u, middle.v));
+  const auto [left, right] =
+      std::minmax_element(pixels_.begin(), pixels_.end(),
+                          [](const Reading& a, const Reading& b) { return a.pixel.u < b.pixel.u; });
+  const auto [top, bottom] =
+      std::minmax_element(pixels_.begin(), pixels_.end(),
+                          [](const Reading& a, const Reading& b) { return a.pixel.v < b.pixel.v; });
+  const int side = std::max(right->pixel.u - left->pixel.u, bottom->pixel.v - top->pixel.v) + 1;
+  const auto z = static_cast<double>(pixels_[pixels_.size() / 2].z);
   const CameraModel& camera = input_->rays.camera();
   return side * z / std::max(camera.fx, camera.fy) >= min_width_;
 }
@@ -192,9 +195,9 @@ bool LowObstacles::isInside(Pixel pixel) const {
 
 /// Labels the candidate, and its edge.
 void LowObstacles::write(const GroundLevel& level, std::vector<std::uint8_t>& labels) {
-  for (const Pixel& pixel : pixels_) change(pixel, read(pixel)->height, kObstacleLabel, labels);
-  for (const Pixel& pixel : pixels_) {
-    if (!isInside(pixel)) writeEdge(level, pixel, labels);
+  for (const Reading& each : pixels_) change(each.pixel, each.height, kObstacleLabel, labels);
+  for (const Reading& each : pixels_) {
+    if (!isInside(each.pixel)) writeEdge(level, each.pixel, labels);
   }
 }
 

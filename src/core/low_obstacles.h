@@ -5,15 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/label_kernel.h"
 #include "core/obstacle_evidence.h"
 
 namespace dominant_plane_detection {
-
-/// What changed among the ground pixels.
-struct GroundLoss {
-  std::size_t pixels = 0;
-  double square_height = 0.0;  ///< [m^2] summed over these
-};
 
 /// Labels what stands on the ground within the ground band, by its height over the ground nearby.
 ///
@@ -25,23 +20,24 @@ struct GroundLoss {
 /// neither on it nor on the ground are unknown.
 class LowObstacles {
  public:
-  /// Reads the image's heights.
   /// @param input has to outlive `mark`.
   /// @param rule the plane with the ground band.
-  /// @param tiles kElsewhere or kNearGround; those of the latter that are smeared become kSmeared.
-  void look(const ImageInput& input, const LabelRule& rule, const LowObstacleLimits& limits,
-            std::vector<std::uint8_t>& tiles);
+  /// @param blocks heights over it.
+  /// @param kinds the `TileKind` of each tile; those kNearGround that are smeared become kSmeared.
+  void look(const ImageInput& input, const LabelRule& rule, const BlockHeights& blocks,
+            const LowObstacleLimits& limits, std::vector<std::uint8_t>& kinds);
 
   /// @param labels one `Label` a pixel by the ground band; ground and unknown ones may change.
-  GroundLoss mark(std::vector<std::uint8_t>& labels);
+  /// @return what is ground no more.
+  LabelSums mark(std::vector<std::uint8_t>& labels);
 
  private:
   struct Pixel {
     int u, v;
   };
-  /// A reading in the working range.
+  /// A pixel with a reading in the working range.
   struct Reading {
-    Eigen::Vector3f ray;
+    Pixel pixel;
     float z;       ///< [m]
     float height;  ///< [m] over the plane
   };
@@ -53,9 +49,9 @@ class LowObstacles {
   void search(const GroundLevel& level, std::vector<std::uint8_t>& labels);
   void spreadReach(const GroundLevel& level);
   float reachOf(const GroundLevel& level, Pixel pixel) const;
-  void grow(const GroundLevel& level, Pixel start);
-  bool joins(const GroundLevel& level, Pixel pixel);
-  bool joinsFace(const GroundLevel& level, const Reading& above, Pixel pixel);
+  void grow(const GroundLevel& level);
+  bool join(const GroundLevel& level, Pixel pixel);
+  bool joinFace(const GroundLevel& level, const Reading& above, Pixel pixel);
   bool isFace(const Reading& above, const Reading& below, float over) const;
   bool isWide() const;
   bool isInside(Pixel pixel) const;
@@ -67,11 +63,11 @@ class LowObstacles {
   const ImageInput* input_ = nullptr;
   LabelRule rule_{};
   double min_width_ = 0.0;  ///< [m]
-  GroundLoss loss_;
+  LabelSums lost_;
   std::vector<Evidence> blocks_;    ///< of a level
   std::vector<float> reach_;        ///< [m] of a level's blocks: height of the evidence about them
   std::vector<std::uint8_t> seen_;  ///< what became of each pixel in this level
-  std::vector<Pixel> pixels_;       ///< of one candidate
+  std::vector<Reading> pixels_;     ///< of one candidate
 };
 
 }  // namespace dominant_plane_detection

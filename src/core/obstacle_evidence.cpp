@@ -45,17 +45,16 @@ double ObstacleEvidence::deviations(std::size_t blocks, double false_alarm_rate)
   return high;
 }
 
-void ObstacleEvidence::look(const ImageInput& input, const LabelRule& rule,
-                            const LowObstacleLimits& limits, std::vector<std::uint8_t>& tiles) {
+void ObstacleEvidence::look(const RayTable& rays, const LabelRule& rule, const BlockHeights& blocks,
+                            const LowObstacleLimits& limits, std::vector<std::uint8_t>& kinds) {
   limits_ = limits;
-  computeBlockHeights(input, rule, blocks_);
-  local_ground_.fit(blocks_, tiles, input.rays, rule, limits.local_error,
+  local_ground_.fit(blocks, kinds, rays, rule, limits.local_error,
                     kWindowWidths * limits.min_width);
-  smeared_.find(blocks_, local_ground_.tiles());
-  smeared_.spreadFeet(local_ground_.tiles(), rule, tiles);
-  std::size_t blocks = 0;
-  for (const GroundLevel& level : local_ground_.levels()) blocks += level.size();
-  deviations_ = static_cast<float>(deviations(blocks, limits.false_alarm_rate));
+  smeared_.find(blocks, local_ground_.tiles());
+  smeared_.spreadFeet(local_ground_.tiles(), rule, kinds);
+  std::size_t all = 0;
+  for (const GroundLevel& level : local_ground_.levels()) all += level.size();
+  deviations_ = static_cast<float>(deviations(all, limits.false_alarm_rate));
 }
 
 bool ObstacleEvidence::isHigh(const GroundLevel& level, std::size_t at, float own) const {

@@ -38,11 +38,12 @@ struct Evidence {
 /// evidence.
 class ObstacleEvidence {
  public:
-  /// Reads the heights of all blocks, and the ground about them.
+  /// Finds the ground about all blocks.
   /// @param rule the plane with the ground band.
-  /// @param tiles kElsewhere or kNearGround; those of the latter that are smeared become kSmeared.
-  void look(const ImageInput& input, const LabelRule& rule, const LowObstacleLimits& limits,
-            std::vector<std::uint8_t>& tiles);
+  /// @param blocks heights over it.
+  /// @param kinds the `TileKind` of each tile; those kNearGround that are smeared become kSmeared.
+  void look(const RayTable& rays, const LabelRule& rule, const BlockHeights& blocks,
+            const LowObstacleLimits& limits, std::vector<std::uint8_t>& kinds);
 
   const LocalGround& ground() const { return local_ground_; }
   /// @param level one of `ground()`'s.
@@ -57,7 +58,6 @@ class ObstacleEvidence {
 
   LowObstacleLimits limits_;
   float deviations_ = 0.0F;  ///< [-]
-  BlockHeights blocks_;
   LocalGround local_ground_;
   SmearedTiles smeared_;
   std::vector<float> clear_;  ///< 1 for a level's blocks where depth is not smeared

@@ -31,7 +31,12 @@ void SmearedTiles::widen(const BlockHeights& blocks, const std::vector<std::uint
   for (int y = 0; y < blocks.rows; ++y) {
     const std::uint8_t* from = marked.data() + static_cast<std::ptrdiff_t>(y) * blocks.columns;
     std::uint8_t* tile = marked_.data() + static_cast<std::ptrdiff_t>(y / kTileBlocks) * columns_;
-    for (int x = 0; x < blocks.columns; ++x) tile[x / kTileBlocks] += from[x];
+    static_assert(kTileBlocks == 2);
+    const int whole = blocks.columns / kTileBlocks;
+    for (int x = 0; x < whole; ++x) {
+      tile[x] = static_cast<std::uint8_t>(tile[x] + from[2 * x] + from[2 * x + 1]);
+    }
+    if (whole < columns_) tile[whole] = static_cast<std::uint8_t>(tile[whole] + from[2 * whole]);
   }
   for (std::uint8_t& tile : marked_) tile = tile >= kHalf;
   widenTiles(columns_, rows_, marked_, in_row_, wide);
@@ -59,18 +64,21 @@ void SmearedTiles::spreadFeet(const GroundLevel& level, const LabelRule& rule,
 
 void SmearedTiles::findClear(const GroundLevel& level, std::vector<float>& clear) const {
   clear.resize(level.size());
-  const int side = std::max(level.block / kTileSize, 1);
-  for (int y = 0; y < level.rows; ++y) {
-    const int top = y * level.block / kTileSize, bottom = std::min(top + side, rows_);
+  const Rows kept = keptRows(level);
+  const bool is_larger = level.block > kTileSize;  // four tiles, and fewer at the border
+  const int in_tile = is_larger ? 1 : kTileSize / level.block;
+  for (int y = kept.first; y < kept.end; ++y) {
+    const int row = is_larger ? 2 * y : y / in_tile;
+    const std::uint8_t* tiles = unsure_.data() + static_cast<std::ptrdiff_t>(row) * columns_;
+    const std::uint8_t* below = row + 1 < rows_ ? tiles + columns_ : tiles;
+    float* to = clear.data() + level.at(0, y);
     for (int x = 0; x < level.columns; ++x) {
-      const int left = x * level.block / kTileSize, right = std::min(left + side, columns_);
-      int smeared = 0;
-      for (int j = top; j < bottom; ++j) {
-        for (int i = left; i < right; ++i) {
-          smeared += unsure_[static_cast<std::size_t>(j * columns_ + i)];
-        }
+      if (is_larger) {
+        const int left = 2 * x, right = std::min(left + 1, columns_ - 1);
+        to[x] = tiles[left] + tiles[right] + below[left] + below[right] > 1 ? 0.0F : 1.0F;
+      } else {
+        to[x] = tiles[x / in_tile] ? 0.0F : 1.0F;
       }
-      clear[level.at(x, y)] = 4 * smeared > side * side ? 0.0F : 1.0F;
     }
   }
 }

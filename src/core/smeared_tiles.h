@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/block_heights.h"
+#include "core/label_rule.h"
 #include "core/local_ground.h"
 
 namespace dominant_plane_detection {
@@ -21,7 +22,7 @@ class SmearedTiles {
   void spreadFeet(const GroundLevel& level, const LabelRule& rule,
                   std::vector<std::uint8_t>& tiles);
 
-  /// @param clear becomes 1 for the level's blocks of which at most a quarter of the tiles is
+  /// @param clear becomes 1 for the blocks of the rows that are kept of which at most a quarter is
   /// smeared, else 0.
   void findClear(const GroundLevel& level, std::vector<float>& clear) const;
 

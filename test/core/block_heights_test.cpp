@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/label_kernel.h"
 #include "core/ray_table.h"
 #include "support/synthetic_depth.h"
 
@@ -38,7 +39,9 @@ TEST_P(BlockHeightsOfSize, AreSumsOfCutHeights) {
   rays.build(camera);
   BlockHeights blocks;
   const DepthView view = depth.view();
-  computeBlockHeights({view, rays, kRange}, rule, blocks);
+  const std::vector<std::uint8_t> tiles(10000, kNearGround);
+  std::vector<std::uint8_t> labels(depth.pixels.size());
+  runLabelKernel({view, rays, kRange}, rule, tiles.data(), labels.data(), &blocks);
   ASSERT_EQ(blocks.columns, (depth.width + 3) / 4);
   ASSERT_EQ(blocks.rows, (depth.height + 3) / 4);
   int off_blocks = 0;

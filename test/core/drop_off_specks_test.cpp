@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/label_kernel.h"
+#include "core/label_rule.h"
 #include "dominant_plane_detection/detection.h"
 #include "support/synthetic_depth.h"
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "core/label_kernel.h"
+#include "core/label_rule.h"
 #include "support/tile_scene.h"
 
 namespace dominant_plane_detection {
