@@ -88,6 +88,7 @@ void LowObstacles::search(const GroundLevel& level, std::vector<std::uint8_t>& l
     const int left = block.x * level.block, top = block.y * level.block;
     for (int v = top; v < std::min(top + level.block, input_->depth.height); ++v) {
       for (int u = left; u < std::min(left + level.block, input_->depth.width); ++u) {
+        if (labels[indexOf({u, v})] == kObstacleLabel) continue;  // it is explained
         pixels_.clear();
         if (!join(level, {u, v})) continue;
         grow(level);
