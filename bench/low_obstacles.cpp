@@ -1,8 +1,10 @@
-// Prints how low an obstacle may be and still be seen: boxes of 12 cm stood into real images, at
-// several heights and distances, and beside it what is called obstacle or drop-off on the floors of
-// the same images without them. For the detector, and for a fixed height over its plane.
+// Prints how low an obstacle may be and still be seen: boxes, sills and plates stood into real
+// images, of several heights at several distances, and beside it what is called obstacle or
+// drop-off on the floors of the same images without them. For the detector, for a fixed height over
+// its plane, and for other detectors.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -16,6 +18,7 @@
 #include <vector>
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
+#include "floor_contestants.h"
 #include "support/floor_objects.h"
 #include "support/recordings.h"
 #include "tools/sensor_profiles.h"
@@ -24,15 +27,21 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr double kWidth = 0.12;                                             // [m] of the boxes
 constexpr double kHeights[] = {0.01, 0.02, 0.03, 0.05};                     // [m]
 constexpr double kDistances[] = {0.7, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5};  // [m]
 constexpr std::size_t kCells = std::size(kDistances) - 1;
 constexpr int kTries = 100000;  // [#] a cell
 constexpr int kPiece = 30;      // [px] a false piece has at least
 
-/// [-] `Label` of each pixel.
-using Labels = std::vector<std::uint8_t>;
+/// What is stood on the floor.
+struct Kind {
+  const char* name;
+  double length, width;  ///< [m] away from the camera, across
+  bool turned;           ///< about the vertical, by any angle
+};
+constexpr Kind kKinds[] = {{"box of 12 cm", 0.12, 0.12, true},
+                           {"sill of 4 x 60 cm", 0.04, 0.60, false},
+                           {"plate of 20 x 30 cm", 0.20, 0.30, true}};
 
 bool isObstacle(std::uint8_t label) { return label == static_cast<std::uint8_t>(Label::kObstacle); }
 bool isGround(std::uint8_t label) { return label == static_cast<std::uint8_t>(Label::kGround); }
@@ -90,122 +99,121 @@ void draw(const std::string& file, const Labels& labels, const cv::Mat& floor) {
 }
 
 struct Options {
-  int boxes = 200;  ///< [#] a cell
+  int objects = 200;  ///< [#] a cell
+  int smear = 1;      ///< [px]
+  bool others = false;
   std::string pictures;
   std::vector<std::string> settings;
 };
 
-/// Stands boxes of a height at a distance.
-/// @param visit gets each image with a box.
+/// Stands objects of a kind and a height at a distance.
+/// @param visit gets each image with an object.
 /// @return how many there were: where there is no room for them, fewer than asked for.
-int standBoxes(const ReferenceSet& set, const std::vector<FloorObjects>& floors, double height,
-               std::size_t cell, int asked, const std::function<void(const StoodIn&)>& visit) {
+int standObjects(const ReferenceSet& set, const std::vector<FloorObjects>& floors, const Kind& kind,
+                 double height, std::size_t cell, const Options& options,
+                 const std::function<void(const StoodIn&)>& visit) {
   std::mt19937 random(static_cast<unsigned>(cell) + 100U * static_cast<unsigned>(1e3 * height));
   std::uniform_int_distribution<std::size_t> any_image(0, floors.size() - 1);
   std::uniform_int_distribution<int> any_column(0, set.camera.width - 1);
   std::uniform_int_distribution<int> any_row(0, set.camera.height - 1);
   std::uniform_real_distribution<double> any_turn(0.0, 1.5707963);
-  int boxes = 0;
-  for (int i = 0; i < kTries && boxes < asked; ++i) {
+  int objects = 0;
+  for (int i = 0; i < kTries && objects < options.objects; ++i) {
     const FloorObjects& floor = floors[any_image(random)];
     const int u = any_column(random), v = any_row(random);
     const double turn = any_turn(random);
     const double z = floor.planeDepth(u, v);
     if (z < kDistances[cell] || z >= kDistances[cell + 1]) continue;
-    TriangleMesh box = boxMesh({kWidth, kWidth, height});
-    box.transform(Eigen::Isometry3d(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ())));
-    const auto stood = floor.stand(box, u, v);
+    TriangleMesh mesh = boxMesh({kind.length, kind.width, height});
+    if (kind.turned) {
+      mesh.transform(Eigen::Isometry3d(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ())));
+    }
+    const auto stood = floor.stand(mesh, u, v, options.smear);
     if (!stood) continue;
-    ++boxes;
+    ++objects;
     visit(*stood);
   }
-  return boxes;
+  return objects;
 }
 
-/// Labels by a fixed height over the detector's plane.
-Labels labelsByHeight(const ReferenceSet& set, const DepthView& view, const Detection& detection,
-                      double threshold) {
-  Labels labels(detection.labels.size(), static_cast<std::uint8_t>(Label::kUnknown));
-  for (int v = 0; v < view.height; ++v) {
-    for (int u = 0; u < view.width; ++u) {
-      const Eigen::Vector3d point = set.point(view, u, v);
-      if (point.z() < set.range_min || point.z() > set.range_max) continue;
-      const double height = detection.height(point);
-      const Label label = height > threshold    ? Label::kObstacle
-                          : height < -threshold ? Label::kDropOff
-                                                : Label::kGround;
-      labels[static_cast<std::size_t>(v * view.width + u)] = static_cast<std::uint8_t>(label);
-    }
-  }
-  return labels;
-}
-
-struct Contestant {
-  std::string name;
-  std::function<Labels(const DepthView&, const Detection&)> labels;
-  FalseAlarms alarms;
-  std::array<std::array<double, kCells>, std::size(kHeights)> found{};  ///< [-] NaN without room
-};
-
-void print(const ReferenceSet& set, const Contestant& contestant) {
-  const FalseAlarms& alarms = contestant.alarms;
-  std::printf("%s, %s: %.2f false pieces an image, %.2f %% of the floor\n", set.name.c_str(),
-              contestant.name.c_str(), static_cast<double>(alarms.pieces) / alarms.images,
-              100.0 * static_cast<double>(alarms.pixels) / static_cast<double>(alarms.readings));
-  for (std::size_t i = 0; i < std::size(kHeights); ++i) {
-    std::printf("  %2.0f mm", 1e3 * kHeights[i]);
-    for (const double share : contestant.found[i]) std::printf("  %4.2f", share);
-    std::printf("\n");
-  }
-}
-
-void evaluate(const ReferenceSet& set, const std::string& sensor, const Options& options) {
+Parameters parametersOf(const ReferenceSet& set, const std::string& sensor,
+                        const std::vector<std::string>& settings) {
   Parameters parameters;
   parameters.range_min = set.range_min;
   parameters.range_max = set.range_max;
   loadParameters(findSensorProfile(sensor), parameters);
-  for (const std::string& setting : options.settings) {
+  for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     setParameter(parameters, setting.substr(0, equals), setting.substr(equals + 1));
   }
-  DominantPlaneDetector detector(parameters);
-  std::vector<Contestant> contestants;
-  contestants.push_back(
-      {"the detector", [](const auto&, const Detection& d) { return d.labels; }, {}, {}});
-  for (const int mm : {15, 30}) {
-    const auto labels = [&set, mm](const DepthView& view, const Detection& detection) {
-      return labelsByHeight(set, view, detection, 1e-3 * mm);
-    };
-    contestants.push_back({std::to_string(mm) + " mm over its plane", labels, {}, {}});
+  return parameters;
+}
+
+/// A row of found shares for each contestant.
+void printFound(const ReferenceSet& set, const std::vector<FloorObjects>& floors, const Kind& kind,
+                double height, const Options& options, DominantPlaneDetector& detector,
+                const std::vector<Contestant>& contestants) {
+  std::vector<std::array<double, kCells>> found(contestants.size());
+  for (std::size_t cell = 0; cell < kCells; ++cell) {
+    std::vector<int> seen(contestants.size(), 0);
+    const int objects =
+        standObjects(set, floors, kind, height, cell, options, [&](const StoodIn& stood) {
+          const DepthView view(stood.depth.ptr<std::uint16_t>(), stood.depth.cols, stood.depth.rows,
+                               set.metres_per_unit);
+          const Detection& detection = detector.detect(view, set.camera);
+          for (std::size_t i = 0; i < contestants.size(); ++i) {
+            if (seen[i] >= contestants[i].most) continue;
+            ++seen[i];
+            found[i][cell] += isFound(contestants[i].labels(view, detection), stood.pixels);
+          }
+        });
+    for (std::size_t i = 0; i < contestants.size(); ++i) {
+      found[i][cell] /= objects < options.objects ? std::nan("") : seen[i];
+    }
   }
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    std::printf("| %s | %s, %2.0f mm |", contestants[i].name.c_str(), kind.name, 1e3 * height);
+    for (const double share : found[i]) std::printf(std::isnan(share) ? " |" : " %.2f |", share);
+    std::printf("\n");
+  }
+  std::fflush(stdout);
+}
+
+void evaluate(const ReferenceSet& set, const std::string& sensor, const Options& options) {
+  DominantPlaneDetector detector(parametersOf(set, sensor, options.settings));
+  const std::vector<Contestant> all = contestants(set, options.others);
+  std::vector<FalseAlarms> alarms(all.size());
   std::vector<FloorObjects> floors;
   for (const ReferenceImage& image : set.images) {
     floors.emplace_back(set, image);
     const DepthView view = set.view(image);
     const Detection& detection = detector.detect(view, set.camera);
-    for (Contestant& each : contestants) {
-      count(each.labels(view, detection), image, floors.back().floor(), each.alarms);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      count(all[i].labels(view, detection), image, floors.back().floor(), alarms[i]);
     }
     if (options.pictures.empty()) continue;
     draw(options.pictures + "/" + set.name + "_" + image.name + ".png", detection.labels,
          floors.back().floor());
   }
-  for (std::size_t i = 0; i < std::size(kHeights); ++i) {
-    for (std::size_t cell = 0; cell < kCells; ++cell) {
-      const int boxes =
-          standBoxes(set, floors, kHeights[i], cell, options.boxes, [&](const StoodIn& stood) {
-            const DepthView view(stood.depth.ptr<std::uint16_t>(), stood.depth.cols,
-                                 stood.depth.rows, set.metres_per_unit);
-            const Detection& detection = detector.detect(view, set.camera);
-            for (Contestant& each : contestants) {
-              each.found[i][cell] += isFound(each.labels(view, detection), stood.pixels) ? 1 : 0;
-            }
-          });
-      const double room = boxes < options.boxes ? std::nan("") : boxes;
-      for (Contestant& each : contestants) each.found[i][cell] /= room;
+  std::printf("\n%s, %s\n\n| | false pieces an image | of the floor |\n|---|---|---|\n",
+              set.name.c_str(), sensor.c_str());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::printf(
+        "| %s | %.2f | %.2f %% |\n", all[i].name.c_str(),
+        static_cast<double>(alarms[i].pieces) / alarms[i].images,
+        100.0 * static_cast<double>(alarms[i].pixels) / static_cast<double>(alarms[i].readings));
+  }
+  if (options.objects == 0) return;
+  std::printf("\n| found | |");
+  for (std::size_t i = 0; i < kCells; ++i) {
+    std::printf(" %g-%g m |", kDistances[i], kDistances[i + 1]);
+  }
+  std::printf("\n|---|---|---|---|---|---|---|---|---|\n");
+  for (const Kind& kind : kKinds) {
+    for (const double height : kHeights) {
+      printFound(set, floors, kind, height, options, detector, all);
     }
   }
-  for (const Contestant& each : contestants) print(set, each);
 }
 
 }  // namespace
@@ -215,16 +223,14 @@ int main(int argc, char** argv) {
   namespace dpd = dominant_plane_detection;
   CLI::App app("How low an obstacle may be", "low_obstacles");
   dpd::Options options;
-  app.add_option("--boxes", options.boxes, "of each height at each distance")
+  app.add_option("--objects", options.objects, "of each kind and height at each distance")
       ->capture_default_str();
+  app.add_option("--smear", options.smear, "[px] over which the sensor smears their edges")
+      ->capture_default_str();
+  app.add_flag("--others", options.others, "beside other detectors, on 20 objects each");
   app.add_option("--pictures", options.pictures, "folder for pictures of the floors");
   app.add_option("--set", options.settings, "NAME=VALUE, a parameter; may be repeated");
   CLI11_PARSE(app, argc, argv);
-  std::printf("boxes of 12 cm found, by distance [m]:");
-  for (std::size_t i = 0; i < dpd::kCells; ++i) {
-    std::printf(" %g-%g", dpd::kDistances[i], dpd::kDistances[i + 1]);
-  }
-  std::printf("\n");
   const std::pair<dpd::ReferenceSet, const char*> recordings[] = {
       {dpd::loadRobotLab(), "realsense_d4xx"}, {dpd::loadCabinet(), "xtion"}};
   for (const auto& [set, sensor] : recordings) {

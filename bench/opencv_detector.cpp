@@ -13,15 +13,15 @@ cv::Mat OpenCvPlane::points(const cv::Mat& depth) const {
   return points;
 }
 
-int OpenCvPlane::segment(const cv::Mat& points) const {
+cv::Mat OpenCvPlane::segment(const cv::Mat& points) const {
   cv::rgbd::RgbdPlane detector;
   cv::Mat mask;
   std::vector<cv::Vec4f> coefficients;
   detector(points, mask, coefficients);
-  return static_cast<int>(coefficients.size());
+  return mask;
 }
 
-int OpenCvPlane::detect(const cv::Mat& depth) const {
+cv::Mat OpenCvPlane::detect(const cv::Mat& depth) const {
   const cv::Mat cloud = points(depth);
   const cv::rgbd::RgbdNormals estimate(depth.rows, depth.cols, CV_32F, k_, 5,
                                        cv::rgbd::RgbdNormals::RGBD_NORMALS_METHOD_FALS);
@@ -30,7 +30,7 @@ int OpenCvPlane::detect(const cv::Mat& depth) const {
   std::vector<cv::Vec4f> coefficients;
   cv::rgbd::RgbdPlane detector;
   detector(cloud, normals, mask, coefficients);
-  return static_cast<int>(coefficients.size());
+  return mask;
 }
 
 }  // namespace dominant_plane_detection

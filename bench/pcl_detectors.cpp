@@ -28,10 +28,12 @@ Cloud::Ptr cloudOf(const cv::Mat& depth, const CameraModel& camera, int step) {
   return cloud;
 }
 
-}  // namespace
+using Organized = pcl::OrganizedMultiPlaneSegmentation<pcl::PointXYZ, pcl::Normal, pcl::Label>;
 
-int detectWithPclOrganized(const cv::Mat& depth, const CameraModel& camera) {
-  const Cloud::Ptr cloud = cloudOf(depth, camera, 1);
+using Regions = std::vector<pcl::PlanarRegion<pcl::PointXYZ>,
+                            Eigen::aligned_allocator<pcl::PlanarRegion<pcl::PointXYZ>>>;
+
+void setUp(const Cloud::Ptr& cloud, Organized& segmentation) {
   pcl::IntegralImageNormalEstimation<pcl::PointXYZ, pcl::Normal> estimate;
   estimate.setNormalEstimationMethod(estimate.COVARIANCE_MATRIX);
   estimate.setMaxDepthChangeFactor(0.02F);
@@ -39,20 +41,41 @@ int detectWithPclOrganized(const cv::Mat& depth, const CameraModel& camera) {
   const pcl::PointCloud<pcl::Normal>::Ptr normals(new pcl::PointCloud<pcl::Normal>);
   estimate.setInputCloud(cloud);
   estimate.compute(*normals);
-  pcl::OrganizedMultiPlaneSegmentation<pcl::PointXYZ, pcl::Normal, pcl::Label> segmentation;
   segmentation.setMinInliers(2000);
   segmentation.setAngularThreshold(0.05);
   segmentation.setDistanceThreshold(0.02);
   segmentation.setInputNormals(normals);
   segmentation.setInputCloud(cloud);
-  std::vector<pcl::PlanarRegion<pcl::PointXYZ>,
-              Eigen::aligned_allocator<pcl::PlanarRegion<pcl::PointXYZ>>>
-      regions;
+}
+
+}  // namespace
+
+int detectWithPclOrganized(const cv::Mat& depth, const CameraModel& camera) {
+  Organized segmentation;
+  setUp(cloudOf(depth, camera, 1), segmentation);
+  Regions regions;
   segmentation.segmentAndRefine(regions);
   return static_cast<int>(regions.size());
 }
 
-int detectWithPclRansac(const cv::Mat& depth, const CameraModel& camera) {
+cv::Mat largestWithPclOrganized(const cv::Mat& depth, const CameraModel& camera) {
+  Organized segmentation;
+  setUp(cloudOf(depth, camera, 1), segmentation);
+  Regions regions;
+  std::vector<pcl::ModelCoefficients> coefficients;
+  std::vector<pcl::PointIndices> inliers, label_indices, boundaries;
+  pcl::PointCloud<pcl::Label>::Ptr labels(new pcl::PointCloud<pcl::Label>);
+  segmentation.segmentAndRefine(regions, coefficients, inliers, labels, label_indices, boundaries);
+  cv::Mat mask = cv::Mat::zeros(depth.size(), CV_8U);
+  const auto largest = std::max_element(
+      inliers.begin(), inliers.end(),
+      [](const auto& a, const auto& b) { return a.indices.size() < b.indices.size(); });
+  if (largest == inliers.end()) return mask;
+  for (const int index : largest->indices) mask.data[index] = 255;
+  return mask;
+}
+
+Eigen::Vector4f detectWithPclRansac(const cv::Mat& depth, const CameraModel& camera) {
   Cloud::Ptr cloud = cloudOf(depth, camera, 2);
   cloud->erase(std::remove_if(cloud->begin(), cloud->end(),
                               [](const pcl::PointXYZ& p) { return !std::isfinite(p.z); }),
@@ -67,7 +90,8 @@ int detectWithPclRansac(const cv::Mat& depth, const CameraModel& camera) {
   pcl::PointIndices inliers;
   pcl::ModelCoefficients coefficients;
   segmentation.segment(inliers, coefficients);
-  return static_cast<int>(inliers.indices.size());
+  if (coefficients.values.size() != 4) return Eigen::Vector4f::Zero();
+  return Eigen::Vector4f(coefficients.values.data());
 }
 
 }  // namespace dominant_plane_detection

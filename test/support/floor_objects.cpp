@@ -63,7 +63,7 @@ Eigen::Vector3d FloorObjects::planePoint(int u, int v) const {
   return world_from_camera_ * (planeDepth(u, v) * set_.camera.ray({u, v}).homogeneous());
 }
 
-std::optional<StoodIn> FloorObjects::stand(TriangleMesh object, int u, int v) const {
+std::optional<StoodIn> FloorObjects::stand(TriangleMesh object, int u, int v, int smear) const {
   if (planeDepth(u, v) <= 0.0 || floor_.at<std::uint8_t>(v, u) != 255) return std::nullopt;
   object.transform(Eigen::Isometry3d(Eigen::Translation3d(planePoint(u, v))));
   Scene scene;
@@ -73,7 +73,7 @@ std::optional<StoodIn> FloorObjects::stand(TriangleMesh object, int u, int v) co
   const Rendering rendering = Renderer(scene).render(world_from_camera_, {});
 
   StoodIn result;
-  result.depth = image_.depth.clone();
+  cv::Mat added = cv::Mat::zeros(image_.depth.size(), CV_64F);  // [m]
   const DepthView view = set_.view(image_);
   std::size_t seen = 0;
   for (int y = 0; y < rendering.height; ++y) {
@@ -88,14 +88,22 @@ std::optional<StoodIn> FloorObjects::stand(TriangleMesh object, int u, int v) co
       if (reading == 0.0) continue;
       const double plane_z = planeDepth(x, y);
       const double error = (reading - plane_z) * std::pow(object_z / plane_z, 2);
-      const double units = (object_z + error) / static_cast<double>(set_.metres_per_unit);
-      result.depth.at<std::uint16_t>(y, x) =
-          static_cast<std::uint16_t>(std::clamp(std::lround(units), 1L, 65535L));
+      added.at<double>(y, x) = object_z + error - reading;
       result.pixels.push_back(index);
     }
   }
   if (static_cast<double>(result.pixels.size()) <= kReadings * static_cast<double>(seen)) {
     return std::nullopt;
+  }
+  if (smear > 1) cv::blur(added, added, {smear, smear});
+  result.depth = image_.depth.clone();
+  for (int i = 0; i < rendering.width * rendering.height; ++i) {
+    const int y = i / rendering.width, x = i % rendering.width;
+    std::uint16_t& reading = result.depth.at<std::uint16_t>(y, x);
+    if (reading == 0 || added.at<double>(y, x) == 0.0) continue;
+    const double units =
+        reading + added.at<double>(y, x) / static_cast<double>(set_.metres_per_unit);
+    reading = static_cast<std::uint16_t>(std::clamp(std::lround(units), 1L, 65535L));
   }
   return result;
 }

@@ -36,8 +36,10 @@ class FloorObjects {
 
   /// @param object [m] on z = 0 about the origin; its x axis points away from the camera.
   /// @param u, v [px] where its origin is seen.
+  /// @param smear [px] side of the square over which a sensor averages what the object adds; 1: its
+  /// edges are sharp.
   /// @return nothing unless all of it is seen, on floor alone, with readings in half of it.
-  std::optional<StoodIn> stand(TriangleMesh object, int u, int v) const;
+  std::optional<StoodIn> stand(TriangleMesh object, int u, int v, int smear = 1) const;
 
  private:
   Eigen::Vector3d planePoint(int u, int v) const;
