@@ -208,7 +208,7 @@ bool GridSearch::collectSurface(const SurfacePlane& surface,
   judge_.setPlane(surface.plane, surface.plane.distance * surface.plane.normal, surface.level);
   judge_.judgeAll();
   for (const std::size_t tile : grown) {
-    if (judge_.onPlane(tile) && !other_[tile]) region_.add(tile, *tiles_);
+    if (judge_.onPlane(tile)) region_.add(tile, *tiles_);
   }
   if (region_.tiles.empty()) return false;
   ground_tiles_.collect(judge_, region_, piece_limits_, other_);
