@@ -36,11 +36,9 @@ struct BlockHeights {
     count.resize(size());
     beyond.resize(size());
     off.resize(size());
-    // As many as the widest vector takes at once, and zeros in what is beyond the image.
-    constexpr int kAtOnce = kTileSize * kBlockSize;
-    const auto padded = static_cast<std::size_t>(covering(width, kAtOnce) * kAtOnce);
-    column_height.assign(padded, 0.0F);
-    column_count.assign(padded, 0.0F);
+    const auto in_tiles = static_cast<std::size_t>(covering(width, kTileSize) * kTileSize);
+    column_height.resize(in_tiles);
+    column_count.resize(in_tiles);
   }
 };
 

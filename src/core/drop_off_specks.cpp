@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "core/label_rule.h"
 #include "core/tile_moments.h"
@@ -12,19 +13,31 @@ namespace {
 
 constexpr auto kDropOffLabel = static_cast<std::uint8_t>(Label::kDropOff);
 constexpr auto kUnknownLabel = static_cast<std::uint8_t>(Label::kUnknown);
-constexpr std::uint8_t kNotSeen = 0, kTaken = 1, kLarge = 2;
+constexpr std::uint8_t kNotSeen = 0, kTaken = 1, kSettled = 2;
 
-/// [px] of an error that hangs together.
-constexpr int kBump = 2 * kTileSize;
+/// [-] Of the image's larger side, over which an error hangs together.
+constexpr double kBump = 1.0 / 40.0;
 
 }  // namespace
 
+void DropOffSpecks::take(const ImageInput& input, Pixel pixel) {
+  const auto at = static_cast<std::size_t>(pixel.v * input.depth.width + pixel.u);
+  seen_[at] = kTaken;
+  pixels_.push_back(pixel);
+  outline_.add(pixel.u, pixel.v);
+  nearest_ = std::min(nearest_, metresAt(input.depth, pixel.u, pixel.v));
+}
+
 bool DropOffSpecks::isLarge(const ImageInput& input, double min_width) const {
-  if (outline_.side() < kBump) return false;
-  const Pixel last = pixels_.back();
-  const auto z = static_cast<double>(metresAt(input.depth, last.u, last.v));
+  const int width = input.depth.width, height = input.depth.height;
+  if (outline_.left == 0 || outline_.top == 0 || outline_.right + 1 == width ||
+      outline_.bottom + 1 == height) {
+    return true;
+  }
   const CameraModel& camera = input.rays.camera();
-  return outline_.side() * z / std::max(camera.fx, camera.fy) >= min_width;
+  const double metres =
+      outline_.side() * static_cast<double>(nearest_) / std::max(camera.fx, camera.fy);
+  return metres >= min_width && outline_.side() >= kBump * std::max(width, height);
 }
 
 /// Stops where the piece is known to be large: what is left of it is found to hang together with
@@ -34,24 +47,23 @@ bool DropOffSpecks::grow(const ImageInput& input, Pixel start, double min_width,
                          const std::vector<std::uint8_t>& labels) {
   const int width = input.depth.width, height = input.depth.height;
   const auto indexOf = [width](int u, int v) { return static_cast<std::size_t>(v * width + u); };
-  pixels_.assign(1, start);
+  pixels_.clear();
   outline_ = {start.u, start.u, start.v, start.v};
-  seen_[indexOf(start.u, start.v)] = kTaken;
+  nearest_ = std::numeric_limits<float>::infinity();
+  take(input, start);
   for (std::size_t next = 0; next < pixels_.size(); ++next) {
     const Pixel pixel = pixels_[next];
     for (int v = std::max(pixel.v - 1, 0); v <= std::min(pixel.v + 1, height - 1); ++v) {
       for (int u = std::max(pixel.u - 1, 0); u <= std::min(pixel.u + 1, width - 1); ++u) {
-        std::uint8_t& seen = seen_[indexOf(u, v)];
-        if (seen == kLarge) return false;
+        const std::uint8_t seen = seen_[indexOf(u, v)];
+        if (seen == kSettled) return false;
         if (seen == kTaken || labels[indexOf(u, v)] != kDropOffLabel) continue;
-        seen = kTaken;
-        pixels_.push_back({u, v});
-        outline_.add(u, v);
+        take(input, {u, v});
         if (isLarge(input, min_width)) return false;
       }
     }
   }
-  return true;
+  return !isLarge(input, min_width);
 }
 
 void DropOffSpecks::settle(const ImageInput& input, Pixel start, double min_width,
@@ -59,7 +71,7 @@ void DropOffSpecks::settle(const ImageInput& input, Pixel start, double min_widt
   const bool is_speck = grow(input, start, min_width, labels);
   for (const Pixel& pixel : pixels_) {
     const auto at = static_cast<std::size_t>(pixel.v * input.depth.width + pixel.u);
-    seen_[at] = kLarge;
+    seen_[at] = kSettled;
     if (is_speck) labels[at] = kUnknownLabel;
   }
 }

@@ -11,8 +11,9 @@ namespace dominant_plane_detection {
 /// Finds drop-offs on the ground that are no larger than a bump of the sensor's error.
 ///
 /// Far away the error reaches beyond the ground band now and then, and hangs together over some
-/// pixels. A drop-off that matters is wider than the narrowest obstacle, and wider than two tiles
-/// in the image, where errors do not hang together any more.
+/// pixels. A drop-off that matters is wider than the narrowest obstacle, and wider than a
+/// fortieth of the image, 16 pixels of 640, where errors do not hang together any more; or the
+/// image's border cuts it off.
 class DropOffSpecks {
  public:
   /// @param tiles the `TileKind` of each tile: only kNearGround and kSmeared ones are looked at.
@@ -38,6 +39,7 @@ class DropOffSpecks {
     int side() const { return std::max(right - left, bottom - top) + 1; }
   };
 
+  void take(const ImageInput& input, Pixel pixel);
   bool isLarge(const ImageInput& input, double min_width) const;
   bool grow(const ImageInput& input, Pixel start, double min_width,
             const std::vector<std::uint8_t>& labels);
@@ -47,6 +49,7 @@ class DropOffSpecks {
   std::vector<std::uint8_t> seen_;  ///< what is known of each pixel
   std::vector<Pixel> pixels_;       ///< of one piece
   Outline outline_{};               ///< of these
+  float nearest_ = 0.0F;            ///< [m] of these
 };
 
 }  // namespace dominant_plane_detection

@@ -6,18 +6,25 @@
 namespace dominant_plane_detection {
 namespace {
 
-float errorScale(const GroundLevel& level, const FloorBumps& bumps, const NoiseModel& local_error) {
-  float count = 0.0F, squares = 0.0F;
+/// [#] How often a sensor that errs more than its profile says is measured again: what is cut off
+/// at 2.5 times the profile's errors says too little about its own.
+constexpr int kWider = 4;
+
+/// The rms of what is not farther off than a scale allows; 1 where there is too little floor.
+float errorScale(const GroundLevel& level, const FloorBumps& bumps, const NoiseModel& local_error,
+                 float scale) {
+  const std::size_t step = level.block == kBlockSize ? kErrorStep : 1;
   const std::size_t end = level.at(0, level.end_row);
-  for (std::size_t at = level.at(0, level.first_row); at < end; at += kErrorStep) {
+  float count = 0.0F, squares = 0.0F;
+  for (std::size_t at = level.at(0, level.first_row); at < end; at += step) {
     if (bumps.is_floor[at] == 0.0F || !(level.depth[at] >= level.min_depth)) continue;
     const float error = bumps.over[at] /
                         static_cast<float>(local_error.sigma(static_cast<double>(level.depth[at])));
-    if (!(std::abs(error) < kMaxError)) continue;
+    if (!(std::abs(error) < kMaxError * scale)) continue;
     count += 1.0F;
     squares += error * error;
   }
-  if (count < kMinErrorBlocks) return 1.0F;
+  if (count < kMinErrorSamples) return 1.0F;
   return std::max(std::sqrt(squares / count), kMinErrorScale);
 }
 
@@ -59,7 +66,10 @@ void FloorBumps::find(const GroundLevel& level, const std::vector<float>& clear,
   over.resize(level.size());
   is_floor.resize(level.size());
   average(level, clear);
-  scale = errorScale(level, *this, local_error);
+  scale = errorScale(level, *this, local_error, 1.0F);
+  for (int i = 0; i < kWider && scale > 1.0F; ++i) {
+    scale = errorScale(level, *this, local_error, scale);
+  }
 }
 
 }  // namespace dominant_plane_detection

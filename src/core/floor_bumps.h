@@ -32,7 +32,7 @@ constexpr float kMinErrorScale = 0.3F;
 /// [-] What is farther off, in local errors, is no error.
 constexpr float kMaxError = 2.5F;
 /// [#] With fewer of an image's blocks, nothing is known of its errors.
-constexpr float kMinErrorBlocks = 100.0F;
-constexpr int kErrorStep = 4;  // [blocks] neighbours say no more
+constexpr float kMinErrorSamples = 100.0F;
+constexpr int kErrorStep = 4;  // [blocks] of the smallest ones: neighbours say no more
 
 }  // namespace dominant_plane_detection

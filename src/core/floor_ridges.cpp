@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kNext = 1, kFarther = 2;  // [blocks]
 
-/// Sums over pairs of differences, in local errors.
+/// Sums over pairs of differences, in errors.
 struct PairSums {
   float count = 0.0F;
   float next = 0.0F, farther = 0.0F, both = 0.0F;  ///< of squares, and of products
@@ -22,7 +22,8 @@ float scaleOf(const PairSums& sums) {
   const float a = sums.next / sums.count, b = sums.farther / sums.count;
   const float c = sums.both / sums.count;
   if (c >= std::min(a, b)) return std::sqrt(std::min(a, b));
-  return std::sqrt((a * b - c * c) / (a + b - 2.0F * c));
+  // Never negative but by rounding, where the one is a multiple of the other.
+  return std::sqrt(std::max(a * b - c * c, 0.0F) / (a + b - 2.0F * c));
 }
 
 /// One row of blocks and those about it; 0 is the row itself.
@@ -55,11 +56,12 @@ void findInRow(const BumpRows& rows, int columns, float* height) {
 }
 
 /// The other pair, next behind and farther before, has errors of the same kind.
-void addPairs(const BumpRows& rows, const float* depth, int columns, const NoiseModel& local_error,
-              PairSums& sums) {
-  for (int x = 0; x < columns; x += kErrorStep) {
-    if (rows.known(x) == 0.0F) continue;
-    const auto error = static_cast<float>(local_error.sigma(static_cast<double>(depth[x])));
+void addPairs(const GroundLevel& level, int y, const BumpRows& rows, float scale,
+              const NoiseModel& local_error, PairSums& sums) {
+  const float* depth = level.depth.data() + level.at(0, y);
+  for (int x = 0; x < level.columns; x += kErrorStep) {
+    if (rows.known(x) == 0.0F || !(depth[x] >= level.min_depth)) continue;
+    const auto error = scale * static_cast<float>(local_error.sigma(static_cast<double>(depth[x])));
     const float next = rows.over(x, kNext) / error;
     const float farther = rows.over(x, -kFarther) / error;
     if (!(std::max(std::abs(next), std::abs(farther)) < kMaxError)) continue;
@@ -76,14 +78,15 @@ void FloorRidges::find(const GroundLevel& level, const FloorBumps& bumps,
                        const NoiseModel& local_error) {
   height_.assign(level.size(), 0.0F);
   PairSums sums;
+  // Of a sensor that errs more than its profile says, larger differences are errors.
+  const float larger = std::max(bumps.scale, 1.0F);
   const int end = std::min(level.end_row, level.rows - kFarther);
   for (int y = std::max(level.first_row, kFarther); y < end; ++y) {
     const BumpRows rows(level, bumps, y);
-    const std::size_t first = level.at(0, y);
-    findInRow(rows, level.columns, height_.data() + first);
-    addPairs(rows, level.depth.data() + first, level.columns, local_error, sums);
+    findInRow(rows, level.columns, height_.data() + level.at(0, y));
+    addPairs(level, y, rows, larger, local_error, sums);
   }
-  scale_ = sums.count < kMinErrorBlocks ? 1.0F : std::max(scaleOf(sums), kMinErrorScale);
+  scale_ = sums.count < kMinErrorSamples ? 1.0F : std::max(larger * scaleOf(sums), kMinErrorScale);
 }
 
 }  // namespace dominant_plane_detection

@@ -23,6 +23,11 @@ LabelRule labelRule(const Eigen::Vector3d& normal, double distance,
           static_cast<float>(kNarrow * limits.noise.quadratic)};
 }
 
+void subtract(const LabelSums& lost, LabelSums& sums) {
+  sums.ground -= lost.ground;
+  sums.square_height = std::max(sums.square_height - lost.square_height, 0.0);
+}
+
 }  // namespace
 
 SegmentationCounts GroundSegmentation::label(const ImageInput& input, const Eigen::Vector3d& normal,
@@ -43,11 +48,8 @@ SegmentationCounts GroundSegmentation::label(const ImageInput& input, const Eige
       runLabelKernel(input, rule, tile_kinds_.data(), labels.data(), low ? &blocks_ : nullptr);
   if (low) {
     low_obstacles_.look(input, rule, blocks_, limits.low, tile_kinds_);
-    for (const LabelSums& lost : {labelSmeared(input, rule, tile_kinds_.data(), labels.data()),
-                                  low_obstacles_.mark(labels)}) {
-      sums.ground -= lost.ground;
-      sums.square_height = std::max(sums.square_height - lost.square_height, 0.0);
-    }
+    subtract(labelSmeared(input, rule, tile_kinds_.data(), labels.data()), sums);
+    subtract(low_obstacles_.mark(labels), sums);
     specks_.remove(input, tile_kinds_, limits.low.min_width, labels);
   }
   SegmentationCounts counts;

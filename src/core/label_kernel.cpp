@@ -113,7 +113,7 @@ HWY_INLINE void labelTile(TileKind kind, const BlockRows<Pixel>& rows, int first
     labelTile<kSeparable, kBlocks, constant_kind.value>(rows, first, range, rule, sums, columns,
                                                         column);
   };
-  if (kind == kNearGround || kind == kSmeared) {
+  if (kind == kNearGround) {
     labelAs(std::integral_constant<TileKind, kNearGround>());
   } else if (kind == kElsewhere) {
     labelAs(std::integral_constant<TileKind, kElsewhere>());
@@ -198,9 +198,10 @@ HWY_INLINE LabelSums labelSmearedTiles(const ImageInput& input, const LabelRule&
   const VectorRule vector_rule(rule);
   const int width = input.depth.width, height = input.depth.height;
   const int columns = covering(width, kTileSize);
-  VectorSums lost;
+  LabelSums total;
   for (std::ptrdiff_t tile = 0; tile < columns * covering(height, kTileSize); ++tile) {
     if (tile_kinds[tile] != kSmeared) continue;
+    VectorSums lost;
     const int left = static_cast<int>(tile % columns) * kTileSize;
     const int top = static_cast<int>(tile / columns) * kTileSize;
     for (int v = top; v < std::min(top + kTileSize, height); ++v) {
@@ -217,9 +218,8 @@ HWY_INLINE LabelSums labelSmearedTiles(const ImageInput& input, const LabelRule&
                                   vector_rule, lost, rest);
       std::copy_n(rest, width - left, row_labels);
     }
+    lost.addTo(total);
   }
-  LabelSums total;
-  lost.addTo(total);
   return total;
 }
 

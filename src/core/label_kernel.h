@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "core/block_heights.h"
 #include "core/image_kernel.h"
@@ -19,7 +18,7 @@ struct LabelSums {
 /// Writes the label of every pixel, row-major, and sums heights in blocks, in one look at the
 /// image. A reading beyond the range is a drop-off where it is below twice the band and the plane
 /// should have been seen within the range.
-/// @param tiles the `TileKind` of each tile, row-major.
+/// @param tiles the `TileKind` of each tile, row-major; none is kSmeared yet.
 /// @param blocks resized to the image and overwritten; not looked at if null.
 LabelSums runLabelKernel(const ImageInput& input, const LabelRule& rule, const std::uint8_t* tiles,
                          std::uint8_t* labels, BlockHeights* blocks);

@@ -18,6 +18,7 @@ constexpr float kSteep = 0.5F;
 
 constexpr auto kGroundLabel = static_cast<std::uint8_t>(Label::kGround);
 constexpr auto kUnknownLabel = static_cast<std::uint8_t>(Label::kUnknown);
+constexpr auto kDropOffLabel = static_cast<std::uint8_t>(Label::kDropOff);
 constexpr auto kObstacleLabel = static_cast<std::uint8_t>(Label::kObstacle);
 
 constexpr std::uint8_t kNotSeen = 0, kTaken = 1, kRefused = 2, kAtEdge = 3;
@@ -39,10 +40,11 @@ void LowObstacles::look(const ImageInput& input, const LabelRule& rule, const Bl
 
 LabelSums LowObstacles::mark(std::vector<std::uint8_t>& labels) {
   lost_ = LabelSums();
+  labels_ = &labels;
   pixels_.reserve(std::min(labels.size(), kUsualPixels));
   seen_.reserve(labels.size());
   reach_.reserve(evidence_.ground().levels().front().size());
-  for (const GroundLevel& level : evidence_.ground().levels()) search(level, labels);
+  for (const GroundLevel& level : evidence_.ground().levels()) search(level);
   return lost_;
 }
 
@@ -55,6 +57,8 @@ std::size_t LowObstacles::indexOf(Pixel pixel) const {
   return static_cast<std::size_t>(pixel.v) * static_cast<std::size_t>(input_->depth.width) +
          static_cast<std::size_t>(pixel.u);
 }
+
+std::uint8_t& LowObstacles::labelOf(Pixel pixel) const { return (*labels_)[indexOf(pixel)]; }
 
 std::optional<LowObstacles::Reading> LowObstacles::read(Pixel pixel) const {
   const float z = metresAt(input_->depth, pixel.u, pixel.v);
@@ -69,9 +73,8 @@ bool LowObstacles::isOnGround(const Reading& reading, float ground) const {
   return !(reading.height - std::min(ground, 0.0F) > kOnPlane * narrow);
 }
 
-void LowObstacles::change(Pixel pixel, float height, std::uint8_t label,
-                          std::vector<std::uint8_t>& labels) {
-  std::uint8_t& now = labels[indexOf(pixel)];
+void LowObstacles::change(Pixel pixel, float height, std::uint8_t label) {
+  std::uint8_t& now = labelOf(pixel);
   if (now == kGroundLabel) {
     ++lost_.ground;
     lost_.square_height += static_cast<double>(height) * static_cast<double>(height);
@@ -79,23 +82,29 @@ void LowObstacles::change(Pixel pixel, float height, std::uint8_t label,
   now = label;
 }
 
-void LowObstacles::search(const GroundLevel& level, std::vector<std::uint8_t>& labels) {
+void LowObstacles::search(const GroundLevel& level) {
   evidence_.find(level, blocks_);
   if (blocks_.empty()) return;
-  seen_.assign(labels.size(), kNotSeen);
+  seen_.assign(labels_->size(), kNotSeen);
   spreadReach(level);
   for (const Evidence& block : blocks_) {
     const int left = block.x * level.block, top = block.y * level.block;
     for (int v = top; v < std::min(top + level.block, input_->depth.height); ++v) {
       for (int u = left; u < std::min(left + level.block, input_->depth.width); ++u) {
-        if (labels[indexOf({u, v})] == kObstacleLabel) continue;  // it is explained
         pixels_.clear();
-        if (!join(level, {u, v})) continue;
+        if (isExplained({u, v}) || !join(level, {u, v})) continue;
         grow(level);
-        if (isWide()) write(level, labels);
+        if (isWide()) write(level);
       }
     }
   }
+}
+
+/// @return whether a pixel belongs to an obstacle that was found within the band.
+bool LowObstacles::isExplained(Pixel pixel) const {
+  if (labelOf(pixel) != kObstacleLabel) return false;
+  const std::optional<Reading> reading = read(pixel);
+  return reading && reading->height <= rule_.band + rule_.band_z2 * reading->z * reading->z;
 }
 
 void LowObstacles::spreadReach(const GroundLevel& level) {
@@ -132,7 +141,7 @@ void LowObstacles::grow(const GroundLevel& level) {
 /// Looks at a pixel once: it joins if it is high enough to belong to the evidence about it.
 bool LowObstacles::join(const GroundLevel& level, Pixel pixel) {
   std::uint8_t& seen = seen_[indexOf(pixel)];
-  if (seen == kTaken || seen == kRefused) return false;
+  if (seen == kTaken || seen == kRefused || labelOf(pixel) == kDropOffLabel) return false;
   const float reach = reachOf(level, pixel);
   if (reach == 0.0F) return false;
   seen = kRefused;
@@ -195,15 +204,14 @@ bool LowObstacles::isInside(Pixel pixel) const {
 }
 
 /// Labels the candidate, and its edge.
-void LowObstacles::write(const GroundLevel& level, std::vector<std::uint8_t>& labels) {
-  for (const Reading& each : pixels_) change(each.pixel, each.height, kObstacleLabel, labels);
+void LowObstacles::write(const GroundLevel& level) {
+  for (const Reading& each : pixels_) change(each.pixel, each.height, kObstacleLabel);
   for (const Reading& each : pixels_) {
-    if (!isInside(each.pixel)) writeEdge(level, each.pixel, labels);
+    if (!isInside(each.pixel)) writeEdge(level, each.pixel);
   }
 }
 
-void LowObstacles::writeEdge(const GroundLevel& level, Pixel pixel,
-                             std::vector<std::uint8_t>& labels) {
+void LowObstacles::writeEdge(const GroundLevel& level, Pixel pixel) {
   const float floor = kOnGround * reachOf(level, pixel);
   const int last_u = std::min(pixel.u + kEdge, input_->depth.width - 1);
   const int last_v = std::min(pixel.v + kEdge, input_->depth.height - 1);
@@ -211,13 +219,13 @@ void LowObstacles::writeEdge(const GroundLevel& level, Pixel pixel,
     for (int u = std::max(pixel.u - kEdge, 0); u <= last_u; ++u) {
       // Once a pixel: the edge of a ragged candidate is long.
       std::uint8_t& seen = seen_[indexOf({u, v})];
-      if (seen == kAtEdge || labels[indexOf({u, v})] != kGroundLabel) continue;
+      if (seen == kAtEdge || labelOf({u, v}) != kGroundLabel) continue;
       seen = kAtEdge;
       const std::optional<Reading> reading = read({u, v});
       if (!reading) continue;
       const float ground = level.groundAt(u, v);
       if (isOnGround(*reading, ground) || reading->height - ground <= floor) continue;
-      change({u, v}, reading->height, kUnknownLabel, labels);
+      change({u, v}, reading->height, kUnknownLabel);
     }
   }
 }

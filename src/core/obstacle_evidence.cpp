@@ -6,11 +6,12 @@
 namespace dominant_plane_detection {
 namespace {
 
-/// [-] Share of a window that has to be ground, for evidence of something that stands on it; and
-/// where it is less than half, how much more of it may lie on one side.
+/// [-] Share of a window that has to be ground, for evidence of something that stands on it.
 constexpr float kMinSupport = 0.4F;
-constexpr float kHalf = 0.5F;
-constexpr float kOneSided = 0.3F;
+/// [-] From here on it does not matter where in the window the ground is; with less, one side may
+/// have so much more of it.
+constexpr float kBroadSupport = 0.5F;
+constexpr float kOneSided = 0.35F;
 constexpr int kSide = 3;  // [blocks] of a window to either side
 /// [-] Windows are at least this much wider than the narrowest obstacle: it must not fill them.
 constexpr double kWindowWidths = 1.5;
@@ -22,11 +23,13 @@ constexpr float kOwnShare = 0.5F;
 /// window's ground is extrapolated.
 bool isSupported(const GroundLevel& level, int x, int y) {
   const float support = level.support[level.at(x, y)];
-  if (support < kMinSupport || support >= kHalf) return support >= kHalf;
+  if (support >= kBroadSupport) return true;
+  if (support < kMinSupport) return false;
+  const Rows kept = keptRows(level);
   const auto difference = [&](int dx, int dy) {
     const auto supportAt = [&](int i, int j) {
       return level.support[level.at(std::clamp(i, 0, level.columns - 1),
-                                    std::clamp(j, level.first_row, level.end_row - 1))];
+                                    std::clamp(j, kept.first, kept.end - 1))];
     };
     return std::abs(supportAt(x + dx, y + dy) - supportAt(x - dx, y - dy));
   };
@@ -62,8 +65,8 @@ bool ObstacleEvidence::isHigh(const GroundLevel& level, std::size_t at, float ow
   const float limit = deviations_ * (static_cast<float>(limits_.local_error.constant) +
                                      static_cast<float>(limits_.local_error.quadratic) * z * z);
   const float over = bumps_.over[at];
-  // Two blocks, next to an edge, average out less than three.
-  const float scale = bumps_.is_floor[at] != 0.0F ? bumps_.scale : 1.0F;
+  // Two blocks average out less than three, and what is no floor errs more.
+  const float scale = bumps_.is_floor[at] != 0.0F ? bumps_.scale : std::max(bumps_.scale, 1.0F);
   if (over >= limit * scale && own >= kOwnShare * over) return true;
   if (level.block != kBlockSize) return false;
   const float ridge = ridges_.height(at);
@@ -74,7 +77,7 @@ bool ObstacleEvidence::isEvidence(const GroundLevel& level, int x, int y) const 
   const std::size_t at = level.at(x, y);
   const float own = level.mean[at] - level.ground[at];
   return own >= static_cast<float>(limits_.min_height) && isHigh(level, at, own) &&
-         level.depth[at] >= level.min_depth && clear_[at] != 0.0F && level.isRead(at) &&
+         level.depth[at] > 0.0F && level.depth[at] >= level.min_depth && level.isRead(at) &&
          isSupported(level, x, y);
 }
 

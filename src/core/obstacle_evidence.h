@@ -34,8 +34,8 @@ struct Evidence {
 /// than the sensor's error explains, or, of the smallest blocks, than the floor close before and
 /// close behind them. How much that is follows from the errors on the image's own floor, the number
 /// of blocks and the rate of false alarms: were the errors of all blocks independent and normally
-/// distributed, that many blocks an image would exceed it. Where depth is smeared there is no
-/// evidence.
+/// distributed, that many blocks an image would exceed it; each counts once, although the smallest
+/// are asked three ways. Where depth is smeared there is no evidence.
 class ObstacleEvidence {
  public:
   /// Finds the ground about all blocks.

@@ -94,7 +94,8 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
         p.false_alarm_rate);
   visit(Info{"min_obstacle_height", "m", 0, 1, "lowest obstacle within the ground band"},
         p.min_obstacle_height);
-  visit(Info{"min_obstacle_width", "m", 0, 1, "narrowest obstacle within the ground band"},
+  visit(Info{"min_obstacle_width", "m", 0, 1,
+             "narrowest obstacle within the ground band, and narrowest drop-off"},
         p.min_obstacle_width);
   visit(Info{"min_patch", "px", 0, 1000000,
              "smallest connected piece of ground, if the image had 640 x 480 pixels"},

@@ -45,6 +45,7 @@ void SmearedTiles::widen(const BlockHeights& blocks, const std::vector<std::uint
 void SmearedTiles::spreadFeet(const GroundLevel& level, const LabelRule& rule,
                               std::vector<std::uint8_t>& tiles) {
   feet_.clear();
+  feet_.reserve(tiles.size());
   const auto take = [&](std::size_t tile) {
     if (tiles[tile] != kNearGround) return;
     tiles[tile] = kSmeared;

@@ -87,6 +87,16 @@ TEST(FloorBumps, TheScaleIsWhatThreeBlocksAverageOutOnTheFloorItself) {
   EXPECT_NEAR(bumpsOf(smooth).scale, 1.0, 0.02);
 }
 
+/// Larger errors than the profile's are cut off where only what it explains is believed: they are
+/// measured again, with what they are themselves.
+TEST(FloorBumps, ASensorThatErrsMoreThanItsProfileSaysIsBelieved) {
+  for (const float times : {1.5F, 2.0F}) {
+    GroundLevel level = flatLevel();
+    addErrors(times * std::sqrt(3.0F) * kSigma, 4, level);
+    EXPECT_NEAR(bumpsOf(level).scale, times, 0.1F * times);
+  }
+}
+
 TEST(FloorBumps, WhatStandsOnTheFloorDoesNotCountAsItsError) {
   GroundLevel level = flatLevel();
   addErrors(kSigma, 2, level);
@@ -134,6 +144,17 @@ TEST(FloorRidges, AStepOrASlopeIsNone) {
   for (int y = 0; y < level.rows; ++y) {
     EXPECT_NEAR(ridges.height(level.at(40, y)), 0.0F, 1e-6F) << y;
     EXPECT_NEAR(ridges.height(level.at(120, y)), 0.0F, 1e-6F) << y;
+  }
+}
+
+/// Differences that are multiples of each other have no covariance to speak of.
+TEST(FloorRidges, SlopesHaveNoErrors) {
+  for (const float slope : {0.00033F, 0.00043F, 0.00053F, 0.001F, 0.0015F}) {
+    GroundLevel level = flatLevel();
+    for (std::size_t i = 0; i < level.size(); ++i) {
+      level.mean[i] = slope * static_cast<float>(i / static_cast<std::size_t>(level.columns));
+    }
+    EXPECT_EQ(ridgesOf(level).scale(), kMinErrorScale) << slope;
   }
 }
 

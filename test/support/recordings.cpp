@@ -6,6 +6,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
+#include <stdexcept>
 
 namespace dominant_plane_detection {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 /// stands and boxes, and a thing 2 m ahead that stays where it is in four images. Found by eye.
 void loadObjects(ReferenceSet& set) {
   std::ifstream file(DPD_REAL_OBJECTS);
+  if (!file) throw std::runtime_error(std::string("cannot read ") + DPD_REAL_OBJECTS);
   std::string line;
   std::getline(file, line);  // header
   while (std::getline(file, line)) {
@@ -21,12 +23,15 @@ void loadObjects(ReferenceSet& set) {
     std::istringstream fields(line);
     std::string name, image_name;
     int left, top, right, bottom;
-    fields >> name >> image_name >> left >> top >> right >> bottom;
-    if (name != set.name) continue;
-    for (ReferenceImage& image : set.images) {
-      if (image.name != image_name) continue;
-      image.objects.emplace_back(cv::Point(left, top), cv::Point(right, bottom));
+    if (!(fields >> name >> image_name >> left >> top >> right >> bottom)) {
+      throw std::runtime_error("expected set, image, left, top, right, bottom, got " + line);
     }
+    if (name != set.name || set.images.empty()) continue;
+    const auto image =
+        std::find_if(set.images.begin(), set.images.end(),
+                     [&](const ReferenceImage& each) { return each.name == image_name; });
+    if (image == set.images.end()) throw std::runtime_error("no image for " + line);
+    image->objects.emplace_back(cv::Point(left, top), cv::Point(right, bottom));
   }
 }
 
