@@ -8,10 +8,13 @@ namespace {
 
 /// [-] Share of a window that has to be ground, for evidence of something that stands on it.
 constexpr float kMinSupport = 0.4F;
-/// [-] From here on it does not matter where in the window the ground is; with less, one side may
-/// have so much more of it.
+/// [-] From here on it does not matter where in the window the ground is. With less, and so much
+/// more of it on one side, the ground's height is that of half a window away, and errs more.
 constexpr float kBroadSupport = 0.5F;
 constexpr float kOneSided = 0.35F;
+/// [-] What is asked for there; but for what is wide, as a step or a ramp across the view.
+constexpr float kOneSidedErrors = 1.5F;
+constexpr int kWide = 2;  // [blocks] to the left and right: seven, with the neighbours of these
 constexpr int kSide = 3;  // [blocks] of a window to either side
 /// [-] Windows are at least this much wider than the narrowest obstacle: it must not fill them.
 constexpr double kWindowWidths = 1.5;
@@ -19,12 +22,9 @@ constexpr double kWindowWidths = 1.5;
 /// it: with less, its neighbours are what is high, or the floor close to it is low.
 constexpr float kOwnShare = 0.5F;
 
-/// @return whether there is ground about a block, and not only on one side of it: what is beyond a
-/// window's ground is extrapolated.
-bool isSupported(const GroundLevel& level, int x, int y) {
-  const float support = level.support[level.at(x, y)];
-  if (support >= kBroadSupport) return true;
-  if (support < kMinSupport) return false;
+/// @return whether what ground there is about a block lies on one side of it.
+bool isOneSided(const GroundLevel& level, int x, int y) {
+  if (level.support[level.at(x, y)] >= kBroadSupport) return false;
   const Rows kept = keptRows(level);
   const auto difference = [&](int dx, int dy) {
     const auto supportAt = [&](int i, int j) {
@@ -33,7 +33,7 @@ bool isSupported(const GroundLevel& level, int x, int y) {
     };
     return std::abs(supportAt(x + dx, y + dy) - supportAt(x - dx, y - dy));
   };
-  return std::max(difference(kSide, 0), difference(0, kSide)) < kOneSided;
+  return std::max(difference(kSide, 0), difference(0, kSide)) >= kOneSided;
 }
 
 }  // namespace
@@ -60,25 +60,35 @@ void ObstacleEvidence::look(const RayTable& rays, const LabelRule& rule, const B
   deviations_ = static_cast<float>(deviations(all, limits.false_alarm_rate));
 }
 
-bool ObstacleEvidence::isHigh(const GroundLevel& level, std::size_t at, float own) const {
+bool ObstacleEvidence::isHigh(const GroundLevel& level, int x, int y, float own) const {
+  const std::size_t at = level.at(x, y);
   const float z = level.depth[at];
   const float limit = deviations_ * (static_cast<float>(limits_.local_error.constant) +
                                      static_cast<float>(limits_.local_error.quadratic) * z * z);
   const float over = bumps_.over[at];
   // Two blocks average out less than three, and what is no floor errs more.
   const float scale = bumps_.is_floor[at] != 0.0F ? bumps_.scale : std::max(bumps_.scale, 1.0F);
-  if (over >= limit * scale && own >= kOwnShare * over) return true;
+  if (over >= limit * scale && own >= kOwnShare * over &&
+      (over >= kOneSidedErrors * limit * scale || !isOneSided(level, x, y) ||
+       isWide(level, x, at, limit * scale))) {
+    return true;
+  }
   if (level.block != kBlockSize) return false;
   const float ridge = ridges_.height(at);
   return ridge >= limit * ridges_.scale() && own >= kOwnShare * ridge;
 }
 
+bool ObstacleEvidence::isWide(const GroundLevel& level, int x, std::size_t at, float limit) const {
+  return x >= kWide && x + kWide < level.columns &&
+         std::min(bumps_.over[at - kWide], bumps_.over[at + kWide]) >= limit;
+}
+
 bool ObstacleEvidence::isEvidence(const GroundLevel& level, int x, int y) const {
   const std::size_t at = level.at(x, y);
   const float own = level.mean[at] - level.ground[at];
-  return own >= static_cast<float>(limits_.min_height) && isHigh(level, at, own) &&
-         level.depth[at] > 0.0F && level.depth[at] >= level.min_depth && level.isRead(at) &&
-         isSupported(level, x, y);
+  return own >= static_cast<float>(limits_.min_height) && level.depth[at] > 0.0F &&
+         level.depth[at] >= level.min_depth && level.support[at] >= kMinSupport &&
+         level.isRead(at) && isHigh(level, x, y, own);
 }
 
 void ObstacleEvidence::find(const GroundLevel& level, std::vector<Evidence>& evidence) {

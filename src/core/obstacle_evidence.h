@@ -53,7 +53,8 @@ class ObstacleEvidence {
   static double deviations(std::size_t blocks, double false_alarm_rate);
 
  private:
-  bool isHigh(const GroundLevel& level, std::size_t at, float own) const;
+  bool isHigh(const GroundLevel& level, int x, int y, float own) const;
+  bool isWide(const GroundLevel& level, int x, std::size_t at, float limit) const;
   bool isEvidence(const GroundLevel& level, int x, int y) const;
 
   LowObstacleLimits limits_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/synthetic_depth.h"
@@ -115,17 +116,26 @@ TEST_F(ObstacleEvidenceTest, OfTwoBlocksMoreIsAskedFor) {
   for (const Evidence& block : found) EXPECT_EQ(block.x, 73);
 }
 
-/// Three of seven columns of the window are ground, to both sides or to one.
-TEST_F(ObstacleEvidenceTest, NeedsGroundOnMoreThanOneSide) {
-  raise(79, 81, kRow, kRow, 0.03F);
-  const std::vector<std::uint8_t> all = kinds_;
+/// Three of seven columns of the window are ground, to both sides.
+TEST_F(ObstacleEvidenceTest, LittleGroundOnTwoSidesIsEnough) {
+  raise(79, 81, kRow, kRow, 0.02F);
   takeGround(39, 40);  // blocks 78 to 81
   EXPECT_FALSE(find().empty());
-  kinds_ = all;
-  takeGround(40, 79);
-  const std::vector<Evidence> found = find();
-  EXPECT_FALSE(found.empty());
-  for (const Evidence& block : found) EXPECT_EQ(block.x, 79);
+}
+
+/// Three of seven rows of the window are ground, all before it: 17 mm are 4.3 local errors, and 26
+/// are asked for of what is not as wide as a step.
+TEST_F(ObstacleEvidenceTest, GroundOnOneSideIsEnoughForWhatIsWideOrHigh) {
+  std::fill_n(kinds_.begin(), 80 * kRow / 2, kElsewhere);
+  raise(71, 73, kRow - 4, kRow - 1, 0.02F);
+  EXPECT_TRUE(find().empty());
+  raise(71, 73, kRow - 4, kRow - 1, 0.01F);
+  EXPECT_FALSE(find().empty());
+  raise(71, 73, kRow - 4, kRow - 1, -0.03F);
+  raise(60, 90, kRow - 4, kRow - 1, 0.02F);
+  const std::vector<Evidence> wide = find();
+  EXPECT_GE(wide.size(), 25U);
+  for (const Evidence& block : wide) EXPECT_EQ(block.y, kRow - 1);
 }
 
 TEST_F(ObstacleEvidenceTest, IsNotNextToWhatIsTall) {
