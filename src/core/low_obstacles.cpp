@@ -92,19 +92,13 @@ void LowObstacles::search(const GroundLevel& level) {
     for (int v = top; v < std::min(top + level.block, input_->depth.height); ++v) {
       for (int u = left; u < std::min(left + level.block, input_->depth.width); ++u) {
         pixels_.clear();
-        if (isExplained({u, v}) || !join(level, {u, v})) continue;
+        // What is an obstacle already is evidence of itself: not grown again, for time.
+        if (labelOf({u, v}) == kObstacleLabel || !join(level, {u, v})) continue;
         grow(level);
         if (isWide()) write(level);
       }
     }
   }
-}
-
-/// @return whether a pixel belongs to an obstacle that was found within the band.
-bool LowObstacles::isExplained(Pixel pixel) const {
-  if (labelOf(pixel) != kObstacleLabel) return false;
-  const std::optional<Reading> reading = read(pixel);
-  return reading && reading->height <= rule_.band + rule_.band_z2 * reading->z * reading->z;
 }
 
 void LowObstacles::spreadReach(const GroundLevel& level) {

@@ -48,7 +48,6 @@ class LowObstacles {
   std::optional<Reading> read(Pixel pixel) const;
   bool isOnGround(const Reading& reading, float ground) const;
   void search(const GroundLevel& level);
-  bool isExplained(Pixel pixel) const;
   void spreadReach(const GroundLevel& level);
   float reachOf(const GroundLevel& level, Pixel pixel) const;
   void grow(const GroundLevel& level);
