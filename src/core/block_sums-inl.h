@@ -59,7 +59,8 @@ class ColumnRow {
   }
 
   /// Sums columns to blocks.
-  /// @param pixels [px] of each block inside the image.
+  /// @param row_count [px] rows of the blocks inside the image.
+  /// @param width [px] of the image.
   HWY_INLINE void store(int block_row, int row_count, int width, BlockHeights& blocks) {
     const std::size_t first = static_cast<std::size_t>(block_row * blocks.columns);
     const int lanes = static_cast<int>(hn::Lanes(Floats()));

@@ -24,20 +24,18 @@ void DropOffSpecks::take(const ImageInput& input, Pixel pixel) {
   const auto at = static_cast<std::size_t>(pixel.v * input.depth.width + pixel.u);
   seen_[at] = kTaken;
   pixels_.push_back(pixel);
-  outline_.add(pixel.u, pixel.v);
   nearest_ = std::min(nearest_, metresAt(input.depth, pixel.u, pixel.v));
 }
 
-bool DropOffSpecks::isLarge(const ImageInput& input, double min_width) const {
+bool DropOffSpecks::isLarge(const ImageInput& input, const PixelOutline& outline,
+                            double min_width) const {
   const int width = input.depth.width, height = input.depth.height;
-  if (outline_.left == 0 || outline_.top == 0 || outline_.right + 1 == width ||
-      outline_.bottom + 1 == height) {
+  if (outline.left == 0 || outline.top == 0 || outline.right + 1 == width ||
+      outline.bottom + 1 == height) {
     return true;
   }
-  const CameraModel& camera = input.rays.camera();
-  const double metres =
-      outline_.side() * static_cast<double>(nearest_) / std::max(camera.fx, camera.fy);
-  return metres >= min_width && outline_.side() >= kBump * std::max(width, height);
+  return outline.width(static_cast<double>(nearest_), input.rays.camera()) >= min_width &&
+         outline.side() >= kBump * std::max(width, height);
 }
 
 /// Stops where the piece is known to be large: what is left of it is found to hang together with
@@ -48,7 +46,7 @@ bool DropOffSpecks::grow(const ImageInput& input, Pixel start, double min_width,
   const int width = input.depth.width, height = input.depth.height;
   const auto indexOf = [width](int u, int v) { return static_cast<std::size_t>(v * width + u); };
   pixels_.clear();
-  outline_ = {start.u, start.u, start.v, start.v};
+  PixelOutline outline(start);
   nearest_ = std::numeric_limits<float>::infinity();
   take(input, start);
   for (std::size_t next = 0; next < pixels_.size(); ++next) {
@@ -59,11 +57,12 @@ bool DropOffSpecks::grow(const ImageInput& input, Pixel start, double min_width,
         if (seen == kSettled) return false;
         if (seen == kTaken || labels[indexOf(u, v)] != kDropOffLabel) continue;
         take(input, {u, v});
-        if (isLarge(input, min_width)) return false;
+        outline.add({u, v});
+        if (isLarge(input, outline, min_width)) return false;
       }
     }
   }
-  return !isLarge(input, min_width);
+  return !isLarge(input, outline, min_width);
 }
 
 void DropOffSpecks::settle(const ImageInput& input, Pixel start, double min_width,

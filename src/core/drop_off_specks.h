@@ -1,10 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "core/image_kernel.h"
+#include "core/pixel_outline.h"
 
 namespace dominant_plane_detection {
 
@@ -23,24 +23,8 @@ class DropOffSpecks {
               std::vector<std::uint8_t>& labels);
 
  private:
-  struct Pixel {
-    int u, v;
-  };
-
-  struct Outline {
-    int left, right, top, bottom;  ///< [px]
-
-    void add(int u, int v) {
-      left = std::min(left, u);
-      right = std::max(right, u);
-      top = std::min(top, v);
-      bottom = std::max(bottom, v);
-    }
-    int side() const { return std::max(right - left, bottom - top) + 1; }
-  };
-
   void take(const ImageInput& input, Pixel pixel);
-  bool isLarge(const ImageInput& input, double min_width) const;
+  bool isLarge(const ImageInput& input, const PixelOutline& outline, double min_width) const;
   bool grow(const ImageInput& input, Pixel start, double min_width,
             const std::vector<std::uint8_t>& labels);
   void settle(const ImageInput& input, Pixel start, double min_width,
@@ -48,7 +32,6 @@ class DropOffSpecks {
 
   std::vector<std::uint8_t> seen_;  ///< what is known of each pixel
   std::vector<Pixel> pixels_;       ///< of one piece
-  Outline outline_{};               ///< of these
   float nearest_ = 0.0F;            ///< [m] of these
 };
 

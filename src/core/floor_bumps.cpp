@@ -34,11 +34,9 @@ void FloorBumps::average(const GroundLevel& level, const std::vector<float>& cle
   const auto columns = static_cast<std::size_t>(level.columns);
   weight_.assign(columns + 2, 0.0F);
   weighted_.assign(columns + 2, 0.0F);
-  const float half = 0.5F * static_cast<float>(level.block * level.block);
   const Rows rows = keptRows(level);
   for (int y = rows.first; y < rows.end; ++y) {
     const std::size_t first = level.at(0, y);
-    const float* count = level.count.data() + first;
     const float* mean = level.mean.data() + first;
     const float* ground = level.ground.data() + first;
     const float* floor = level.can_support.data() + first;
@@ -46,7 +44,7 @@ void FloorBumps::average(const GroundLevel& level, const std::vector<float>& cle
     float* const weight = weight_.data() + 1;
     float* const weighted = weighted_.data() + 1;
     for (std::size_t x = 0; x < columns; ++x) {
-      weight[x] = count[x] >= half ? is_clear[x] : 0.0F;
+      weight[x] = level.isRead(first + x) ? is_clear[x] : 0.0F;
       weighted[x] = weight[x] * (mean[x] - ground[x]);
     }
     float* to = over.data() + first;

@@ -24,6 +24,9 @@ struct LabelRule {
   float band_z2;           ///< [1/m]
   float narrow = 0.0F;     ///< [m]
   float narrow_z2 = 0.0F;  ///< [1/m]
+
+  /// @return [m] the narrow band at a depth [m].
+  float narrowBand(float z) const { return narrow + narrow_z2 * z * z; }
 };
 
 }  // namespace dominant_plane_detection

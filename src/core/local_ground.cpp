@@ -8,8 +8,7 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr int kReach = 3;  // [blocks] of a window to either side
-constexpr float kWindow = (2 * kReach + 1) * (2 * kReach + 1);
+constexpr float kWindow = (2 * kGroundReach + 1) * (2 * kGroundReach + 1);
 constexpr float kClip = 2.5F;       // [-] in local errors
 constexpr float kFirstClip = 4.0F;  // [-] of the first look, against the plane itself
 /// [-] Share of a window that tells a height; with less, that of the level before stays.
@@ -21,7 +20,7 @@ constexpr int kBeyond = 4;
 /// The rows that the windows of these look at.
 Rows readRows(const GroundLevel& level) {
   const Rows kept = keptRows(level);
-  return {std::max(kept.first - kReach, 0), std::min(kept.end + kReach, level.rows)};
+  return {std::max(kept.first - kGroundReach, 0), std::min(kept.end + kGroundReach, level.rows)};
 }
 
 /// The plane's depth in the middle of each block; 0 above its horizon.
@@ -151,8 +150,10 @@ void LocalGround::smooth(GroundLevel& level, const NoiseModel& local_error, floa
   }
   window_weight_.resize(level.size());
   window_sum_.resize(level.size());
-  sumWindows<kReach>(weight, level.columns, level.rows, kept, column_sum_, window_weight_.data());
-  sumWindows<kReach>(weighted, level.columns, level.rows, kept, column_sum_, window_sum_.data());
+  sumWindows<kGroundReach>(weight, level.columns, level.rows, kept, column_sum_,
+                           window_weight_.data());
+  sumWindows<kGroundReach>(weighted, level.columns, level.rows, kept, column_sum_,
+                           window_sum_.data());
   level.support.resize(level.size());
   const float* const window_weight = window_weight_.data();
   const float* const window_sum = window_sum_.data();
@@ -203,7 +204,8 @@ void LocalGround::fit(const BlockHeights& blocks, const std::vector<std::uint8_t
   for (std::size_t i = levels_.size(); i-- > 0;) {
     GroundLevel& level = levels_[i];
     const bool first = i + 1 == levels_.size();
-    level.min_depth = static_cast<float>(min_window * focal / ((2 * kReach + 1) * level.block));
+    level.min_depth =
+        static_cast<float>(min_window * focal / ((2 * kGroundReach + 1) * level.block));
     findDepths(rays, plane, level);
     if (i > 0) {  // the next level begins with it
       level.first_row = 0;

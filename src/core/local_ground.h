@@ -38,6 +38,9 @@ struct GroundLevel {
   float groundAt(int u, int v) const;
 };
 
+/// [blocks] How far a window of the ground about a block reaches to either side.
+constexpr int kGroundReach = 3;
+
 /// Rows that are searched, and those about them whose ground is kept.
 Rows keptRows(const GroundLevel& level);
 

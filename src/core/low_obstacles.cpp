@@ -69,8 +69,7 @@ std::optional<LowObstacles::Reading> LowObstacles::read(Pixel pixel) const {
 }
 
 bool LowObstacles::isOnGround(const Reading& reading, float ground) const {
-  const float narrow = rule_.narrow + rule_.narrow_z2 * reading.z * reading.z;
-  return !(reading.height - std::min(ground, 0.0F) > kOnPlane * narrow);
+  return !(reading.height - std::min(ground, 0.0F) > kOnPlane * rule_.narrowBand(reading.z));
 }
 
 void LowObstacles::change(Pixel pixel, float height, std::uint8_t label) {
@@ -178,16 +177,10 @@ bool LowObstacles::isFace(const Reading& above, const Reading& below, float over
 }
 
 bool LowObstacles::isWide() const {
-  const auto [left, right] =
-      std::minmax_element(pixels_.begin(), pixels_.end(),
-                          [](const Reading& a, const Reading& b) { return a.pixel.u < b.pixel.u; });
-  const auto [top, bottom] =
-      std::minmax_element(pixels_.begin(), pixels_.end(),
-                          [](const Reading& a, const Reading& b) { return a.pixel.v < b.pixel.v; });
-  const int side = std::max(right->pixel.u - left->pixel.u, bottom->pixel.v - top->pixel.v) + 1;
+  PixelOutline outline(pixels_.front().pixel);
+  for (const Reading& each : pixels_) outline.add(each.pixel);
   const auto z = static_cast<double>(pixels_[pixels_.size() / 2].z);
-  const CameraModel& camera = input_->rays.camera();
-  return side * z / std::max(camera.fx, camera.fy) >= min_width_;
+  return outline.width(z, input_->rays.camera()) >= min_width_;
 }
 
 /// @return whether the four pixels about one are of a candidate as well.

@@ -7,6 +7,7 @@
 
 #include "core/label_kernel.h"
 #include "core/obstacle_evidence.h"
+#include "core/pixel_outline.h"
 
 namespace dominant_plane_detection {
 
@@ -32,9 +33,6 @@ class LowObstacles {
   LabelSums mark(std::vector<std::uint8_t>& labels);
 
  private:
-  struct Pixel {
-    int u, v;
-  };
   /// A pixel with a reading in the working range.
   struct Reading {
     Pixel pixel;

@@ -15,7 +15,6 @@ constexpr float kOneSided = 0.35F;
 /// [-] What is asked for there; but for what is wide, as a step or a ramp across the view.
 constexpr float kOneSidedErrors = 1.5F;
 constexpr int kWide = 2;  // [blocks] to the left and right: seven, with the neighbours of these
-constexpr int kSide = 3;  // [blocks] of a window to either side
 /// [-] Windows are at least this much wider than the narrowest obstacle: it must not fill them.
 constexpr double kWindowWidths = 1.5;
 /// [-] Of three blocks' height, or of a ridge's, what the block itself has over the ground about
@@ -33,7 +32,7 @@ bool isOneSided(const GroundLevel& level, int x, int y) {
     };
     return std::abs(supportAt(x + dx, y + dy) - supportAt(x - dx, y - dy));
   };
-  return std::max(difference(kSide, 0), difference(0, kSide)) >= kOneSided;
+  return std::max(difference(kGroundReach, 0), difference(0, kGroundReach)) >= kOneSided;
 }
 
 }  // namespace
@@ -62,9 +61,9 @@ void ObstacleEvidence::look(const RayTable& rays, const LabelRule& rule, const B
 
 bool ObstacleEvidence::isHigh(const GroundLevel& level, int x, int y, float own) const {
   const std::size_t at = level.at(x, y);
-  const float z = level.depth[at];
-  const float limit = deviations_ * (static_cast<float>(limits_.local_error.constant) +
-                                     static_cast<float>(limits_.local_error.quadratic) * z * z);
+  const auto error =
+      static_cast<float>(limits_.local_error.sigma(static_cast<double>(level.depth[at])));
+  const float limit = deviations_ * error;
   const float over = bumps_.over[at];
   // Two blocks average out less than three, and what is no floor errs more.
   const float scale = bumps_.is_floor[at] != 0.0F ? bumps_.scale : std::max(bumps_.scale, 1.0F);

@@ -56,9 +56,7 @@ void SmearedTiles::spreadFeet(const GroundLevel& level, const LabelRule& rule,
   }
   for (std::size_t next = 0; next < feet_.size(); ++next) {
     forEachNeighbour(feet_[next], columns_, rows_, [&](std::size_t tile) {
-      const float z = level.depth[tile];
-      const float narrow = rule.narrow + rule.narrow_z2 * z * z;
-      if (std::abs(level.mean[tile]) > kFoot * narrow) take(tile);
+      if (std::abs(level.mean[tile]) > kFoot * rule.narrowBand(level.depth[tile])) take(tile);
     });
   }
 }
