@@ -13,6 +13,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,8 @@
 #include "support/floor_objects.h"
 #include "support/recordings.h"
 #include "tools/sensor_profiles.h"
+#include "tools/source_arguments.h"
+#include "tools/tool_main.h"
 #include "tools/yaml_files.h"
 
 namespace dominant_plane_detection {
@@ -142,10 +145,7 @@ Parameters parametersOf(const ReferenceSet& set, const std::string& sensor,
   parameters.range_min = set.range_min;
   parameters.range_max = set.range_max;
   loadParameters(findSensorProfile(sensor), parameters);
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    setParameter(parameters, setting.substr(0, equals), setting.substr(equals + 1));
-  }
+  applySettings(settings, parameters);
   return parameters;
 }
 
@@ -216,6 +216,16 @@ void evaluate(const ReferenceSet& set, const std::string& sensor, const Options&
   }
 }
 
+int run(const Options& options) {
+  const std::pair<ReferenceSet, const char*> recordings[] = {{loadRobotLab(), "realsense_d4xx"},
+                                                             {loadCabinet(), "xtion"}};
+  for (const auto& [set, sensor] : recordings) {
+    if (set.images.empty()) throw std::runtime_error("no recordings in " + recordingsFolder());
+    evaluate(set, sensor, options);
+  }
+  return 0;
+}
+
 }  // namespace
 }  // namespace dominant_plane_detection
 
@@ -230,14 +240,5 @@ int main(int argc, char** argv) {
   app.add_flag("--others", options.others, "beside other detectors, on 20 objects each");
   app.add_option("--pictures", options.pictures, "folder for pictures of the floors");
   app.add_option("--set", options.settings, "NAME=VALUE, a parameter; may be repeated");
-  CLI11_PARSE(app, argc, argv);
-  const std::pair<dpd::ReferenceSet, const char*> recordings[] = {
-      {dpd::loadRobotLab(), "realsense_d4xx"}, {dpd::loadCabinet(), "xtion"}};
-  for (const auto& [set, sensor] : recordings) {
-    if (set.images.empty()) {
-      std::fprintf(stderr, "no recordings in %s\n", dpd::recordingsFolder().c_str());
-      return 1;
-    }
-    dpd::evaluate(set, sensor, options);
-  }
+  return dpd::runTool(app, argc, argv, [&] { return dpd::run(options); });
 }

@@ -40,10 +40,7 @@ void declareSource(CLI::App& app, SourceArguments& arguments, bool required) {
       ->check(CLI::IsMember({"grid", "kdtree"}));
 }
 
-Parameters SourceArguments::readParameters() const {
-  Parameters parameters;
-  if (!params.empty()) loadParameters(params, parameters);
-  if (!sensor.empty()) loadParameters(findSensorProfile(sensor), parameters);
+void applySettings(const std::vector<std::string>& settings, Parameters& parameters) {
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) {
@@ -51,6 +48,13 @@ Parameters SourceArguments::readParameters() const {
     }
     setParameter(parameters, setting.substr(0, equals), setting.substr(equals + 1));
   }
+}
+
+Parameters SourceArguments::readParameters() const {
+  Parameters parameters;
+  if (!params.empty()) loadParameters(params, parameters);
+  if (!sensor.empty()) loadParameters(findSensorProfile(sensor), parameters);
+  applySettings(settings, parameters);
   if (!range.empty()) {
     parameters.range_min = range[0];
     parameters.range_max = range[1];

@@ -29,6 +29,10 @@ struct SourceArguments {
   SourceOptions readSourceOptions() const;
 };
 
+/// @param settings NAME=VALUE, parameters by their names; later ones win.
+/// @throw std::invalid_argument
+void applySettings(const std::vector<std::string>& settings, Parameters& parameters);
+
 /// @param required whether there have to be inputs.
 void declareSource(CLI::App& app, SourceArguments& arguments, bool required);
 
