@@ -18,11 +18,7 @@ Scene sceneFrom(double camera_height, double pitch) {
 }
 
 void place(Scene& scene, TriangleMesh mesh, const Eigen::Vector3d& position, bool ground = false) {
-  mesh.transform(Eigen::Isometry3d(Eigen::Translation3d(position)));
-  SceneObject object;
-  object.mesh = std::move(mesh);
-  object.ground = ground;
-  scene.objects.push_back(std::move(object));
+  scene.add(std::move(mesh), Eigen::Isometry3d(Eigen::Translation3d(position))).ground = ground;
 }
 
 void addFloor(Scene& scene) { place(scene, rectangleMesh(kWide, kWide), {0.0, 0.0, 0.0}, true); }

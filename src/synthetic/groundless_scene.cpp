@@ -24,10 +24,7 @@ constexpr double kConeAngle = 10.0;  // [deg] of normals that are taken for one 
 
 void place(Scene& scene, TriangleMesh mesh, const Vector3d& position,
            const Eigen::Quaterniond& turn = Eigen::Quaterniond::Identity()) {
-  mesh.transform(Eigen::Translation3d(position) * turn);
-  SceneObject object;
-  object.mesh = std::move(mesh);
-  scene.objects.push_back(std::move(object));
+  scene.add(std::move(mesh), Eigen::Translation3d(position) * turn);
 }
 
 Eigen::Quaterniond turned(double angle, const Vector3d& axis) {

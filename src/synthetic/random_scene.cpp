@@ -18,19 +18,13 @@ void place(Scene& scene, TriangleMesh mesh, const Eigen::Vector3d& position, dou
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation() = position;
   pose.rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
-  mesh.transform(pose);
-  SceneObject object;
-  object.mesh = std::move(mesh);
-  object.colour = colour;
-  scene.objects.push_back(std::move(object));
+  scene.add(std::move(mesh), pose).colour = colour;
 }
 
 void addRoom(Scene& scene, SceneRandom& random) {
-  SceneObject floor;
-  floor.mesh = rectangleMesh(30.0, 30.0);
+  SceneObject& floor = scene.add(rectangleMesh(30.0, 30.0), Eigen::Isometry3d::Identity());
   floor.ground = true;
   floor.tiles = 0.4;
-  scene.objects.push_back(floor);
   const Eigen::Vector3d paint(0.8, 0.78, 0.7);
   const double turn = random.between(-0.4, 0.4);  // the room is not in line with the view
   for (const double side : {0.0, 0.5 * kPi, -0.5 * kPi}) {

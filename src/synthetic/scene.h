@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -26,6 +26,10 @@ struct Scene {
   CameraModel camera;
   CameraPath path;
   SensorNoise noise;
+
+  /// @param pose T_world_mesh.
+  /// @return the object, for what else is to be said of it; until the next one is added.
+  SceneObject& add(TriangleMesh mesh, const Eigen::Isometry3d& pose);
 };
 
 /// Reads a scene description; scenes/ has examples with all that can stand in one.

@@ -179,14 +179,4 @@ Scene loadScene(const std::string& file) {
   }
 }
 
-CameraModel kinectCamera() {
-  CameraModel camera;
-  camera.width = 640;
-  camera.height = 480;
-  camera.fx = camera.fy = 580.0;
-  camera.cx = 319.5;
-  camera.cy = 239.5;
-  return camera;
-}
-
 }  // namespace dominant_plane_detection

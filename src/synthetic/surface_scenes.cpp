@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "synthetic/camera_rays.h"
 #include "synthetic/scene_random.h"
 
 namespace dominant_plane_detection {
@@ -88,11 +89,7 @@ class Drawing {
     Eigen::Isometry3d pose(Eigen::AngleAxisd(turn_, Eigen::Vector3d::UnitZ()));
     pose.translate(position);
     pose.rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
-    mesh.transform(pose);
-    SceneObject object;
-    object.mesh = std::move(mesh);
-    object.ground = ground;
-    result_.scene.objects.push_back(std::move(object));
+    result_.scene.add(std::move(mesh), pose).ground = ground;
   }
   void surface(const Eigen::Vector3d& normal, double offset) {
     const Eigen::AngleAxisd turn(turn_, Eigen::Vector3d::UnitZ());
@@ -266,15 +263,12 @@ SurfaceScene surfaceScene(FloorKind kind, std::uint32_t seed) {
 
 std::vector<int> shownSurfaces(const SurfaceScene& scene, const Rendering& rendering) {
   const Eigen::Isometry3d pose = scene.scene.path.keys.front().pose();
-  const CameraModel& camera = scene.scene.camera;
+  const std::vector<Eigen::Vector2f> rays = cameraRays(scene.scene.camera);
   std::vector<int> shown(rendering.depth.size(), -1);
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const auto z = static_cast<double>(rendering.depth[i]);
     if (z <= 0.0) continue;
-    const Eigen::Vector2d ray =
-        camera.ray({static_cast<double>(i % static_cast<std::size_t>(rendering.width)),
-                    static_cast<double>(i / static_cast<std::size_t>(rendering.width))});
-    const Eigen::Vector3d point = pose * (z * Eigen::Vector3d(ray.x(), ray.y(), 1.0));
+    const Eigen::Vector3d point = pose * (z * rays[i].cast<double>().homogeneous());
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
       const double off = scene.surfaces[s].normal.dot(point) - scene.surfaces[s].offset;
       if (std::abs(off) < kOnSurface * (1.0 + 0.1 * z * z)) shown[i] = static_cast<int>(s);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "dominant_plane_detection/noise_model.h"
 #include "synthetic/renderer.h"
@@ -65,11 +66,9 @@ Eigen::Vector3d FloorObjects::planePoint(int u, int v) const {
 
 std::optional<StoodIn> FloorObjects::stand(TriangleMesh object, int u, int v, int smear) const {
   if (planeDepth(u, v) <= 0.0 || floor_.at<std::uint8_t>(v, u) != 255) return std::nullopt;
-  object.transform(Eigen::Isometry3d(Eigen::Translation3d(planePoint(u, v))));
   Scene scene;
   scene.camera = set_.camera;
-  scene.objects.emplace_back();
-  scene.objects.back().mesh = object;
+  scene.add(std::move(object), Eigen::Isometry3d(Eigen::Translation3d(planePoint(u, v))));
   const Rendering rendering = Renderer(scene).render(world_from_camera_, {});
 
   StoodIn result;

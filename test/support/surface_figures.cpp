@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/plane_moments.h"
+#include "synthetic/camera_rays.h"
 #include "synthetic/ground_scenes.h"
 
 namespace dominant_plane_detection {
@@ -91,15 +92,13 @@ std::size_t SurfaceImage::nearest(const Eigen::Vector3d& normal, double distance
 
 std::optional<SurfaceError> SurfaceImage::fitError(std::size_t surface) const {
   const NoiseModel noise;
+  const std::vector<Eigen::Vector2f> rays = cameraRays(camera_);
   PlaneMoments moments;
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     const double z = 1e-3 * depth_[i];
     if (shown_[i] != static_cast<int>(surface) || z < kNearest || z > kFarthest) continue;
-    const auto width = static_cast<std::size_t>(camera_.width);
-    const Eigen::Vector2d ray =
-        camera_.ray({static_cast<double>(i % width), static_cast<double>(i / width)});
     const double sigma = noise.sigma(z);
-    moments.add(z * Eigen::Vector3d(ray.x(), ray.y(), 1.0), 1.0 / (sigma * sigma));
+    moments.add(z * rays[i].cast<double>().homogeneous(), 1.0 / (sigma * sigma));
   }
   const std::optional<PlaneFit> fit = moments.fit();
   if (!fit) return std::nullopt;
@@ -151,18 +150,16 @@ LabelFigures labelFigures(const LabelCase& which, double share, ErrorKind error,
   LabelFigures figures;
   figures.found = detection.found();
   std::size_t right = 0, ground = 0;
-  const auto width = static_cast<std::size_t>(rendering.width);
+  const std::vector<Eigen::Vector2f> rays = cameraRays(scene.camera);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (depth[i] == 0) continue;
     const auto truth = static_cast<Label>(rendering.labels[i]);
     const auto label = static_cast<Label>(detection.labels[i]);
     if (truth == Label::kGround) figures.false_drop_off += label == Label::kDropOff;
     if (truth != which.truth) continue;
-    const Eigen::Vector2d ray =
-        scene.camera.ray({static_cast<double>(i % width), static_cast<double>(i / width)});
     // The floor's height over the ray at the depth that is asked for.
-    if (kFarthestFloor * rendering.normal.dot(ray.homogeneous()) + rendering.distance > 0.0)
-      continue;
+    const Eigen::Vector3d ray = rays[i].cast<double>().homogeneous();
+    if (kFarthestFloor * rendering.normal.dot(ray) + rendering.distance > 0.0) continue;
     ++figures.other;
     right += label == which.truth;
     ground += label == Label::kGround;
