@@ -8,6 +8,7 @@
 #include <functional>
 #include <random>
 
+#include "core/label_kernel.h"
 #include "core/local_ground.h"
 #include "dominant_plane_detection/detection.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
@@ -316,6 +317,39 @@ TEST(LowObstacles, WhatStandsInAHollowIsSeen) {
            isIn(y, 0.8, 2.0);
   };
   EXPECT_GT(sharesWhere(detection, depth, apart).ground, 0.99);
+}
+
+/// Where another surface below the ground was found, on one half of a box.
+TEST(LowObstacles, ADropOffStaysOne) {
+  const auto depth = floorWith([](double x, double y) { return box(x, y, 0.02); });
+  RayTable rays;
+  rays.build(testCamera());
+  const DepthView view = depth.view();
+  const ImageInput input{view, rays, {1.0F, 0.5F, 4.0F}};
+  const Eigen::Vector3f up = kUp.cast<float>();
+  const auto height = static_cast<float>(kCameraHeight);
+  const LabelRule rule{{up.x(), up.y(), up.z()}, height, 0.01F, 0.007F, 0.0025F, 0.0018F};
+  std::vector<std::uint8_t> kinds(80 * 60, kNearGround), labels(depth.pixels.size());
+  BlockHeights blocks;
+  runLabelKernel(input, rule, kinds.data(), labels.data(), &blocks);
+  constexpr auto kDropOff = static_cast<std::uint8_t>(Label::kDropOff);
+  for (int v = 0; v < 480; ++v) {
+    std::fill_n(labels.begin() + v * 640 + 320, 320, kDropOff);
+  }
+  LowObstacles obstacles;
+  obstacles.look(input, rule, blocks, {0.005, 0.08, 0.2, {0.0005, 0.0012}}, kinds);
+  obstacles.mark(labels);
+  int marked = 0;
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      const std::uint8_t label = labels[static_cast<std::size_t>(v * 640 + u)];
+      marked += label == static_cast<std::uint8_t>(Label::kObstacle);
+      if (u >= 320) {
+        ASSERT_EQ(label, kDropOff) << u << ", " << v;
+      }
+    }
+  }
+  EXPECT_GT(marked, 500);
 }
 
 TEST(LowObstacles, EvidenceFollowsFromTheRateOfFalseAlarms) {
