@@ -18,6 +18,20 @@ struct NoiseModel {
   double sigma(double z) const { return constant + quadratic * z * z; }
 };
 
+/// Size of the error that a large part of an image shares, along a surface's normal:
+/// constant + quadratic z^2 / cos of the angle of incidence. No fit can tell it from the surface.
+/// The numbers are those that the floors and tables of recordings with a Kinect and an Xtion show,
+/// by their halves against each other (docs/method.md).
+struct WideErrorModel {
+  double constant = 0.010;  ///< [m]
+  double quadratic = 8e-4;  ///< [1/m]
+
+  /// @param z [m] depth along the optical axis.
+  /// @param cosine [-] of the angle of incidence.
+  /// @return [m]
+  double size(double z, double cosine) const { return constant + quadratic * z * z / cosine; }
+};
+
 /// A threshold t(z) = offset + sigmas * sigma(z): constant as in the paper with sigmas = 0, scaled
 /// with the sensor's noise with offset = 0.
 struct DepthThreshold {

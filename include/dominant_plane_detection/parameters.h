@@ -23,6 +23,7 @@ struct Parameters {
   double range_max = 4.0;  ///< [m] farthest depth that is trusted
   NoiseModel noise;        ///< sigma(z)
   NoiseModel smooth_error{0.0013, 0.001};  ///< [m] rms of large parts of a floor over its plane
+  WideErrorModel wide_error;               ///< [m] rms of what large parts of an image share
 
   int seeds = 64;                  ///< [#] most seeds that are tried
   int subsampling = 2;             ///< [px] n of "every n-th point of every n-th row"; kdtree only
@@ -37,6 +38,7 @@ struct Parameters {
   double false_alarm_rate = 0.2;       ///< [1/image] of low obstacles; 0: ground_band alone decides
   double min_obstacle_height = 0.005;  ///< [m] lowest obstacle within the ground band
   double min_obstacle_width = 0.08;    ///< [m] narrowest one
+  bool covariance = true;              ///< of normal and distance
   int min_patch = 400;      ///< [px] smallest connected piece of ground, of 640 x 480 pixels
   double min_share = 0.05;  ///< [-] smallest plane, as a share of the valid pixels
   Eigen::Vector3d expected_up{0.0, -1.0, 0.0};  ///< [-] in the optical frame, of any length

@@ -10,6 +10,7 @@
 #include "core/grid_search.h"
 #include "core/ground_segmentation.h"
 #include "core/kdtree_search.h"
+#include "core/plane_covariance.h"
 #include "core/plane_selection.h"
 #include "core/ray_table.h"
 #include "core/tile_moments.h"
@@ -147,6 +148,7 @@ class DominantPlaneDetector::Implementation {
     detection_.reason.clear();
     detection_.normal.setConstant(kNaN);
     detection_.distance = kNaN;
+    detection_.covariance = Detection::unknownCovariance();
     detection_.mean_square_error = kNaN;
     detection_.inliers = 0;
     detection_.valid_pixels = 0;
@@ -171,6 +173,10 @@ class DominantPlaneDetector::Implementation {
     return {p.noise,
             p.ground_band,
             {p.min_obstacle_height, p.min_obstacle_width, p.false_alarm_rate, p.local_error}};
+  }
+
+  ErrorSizes errorSizes() const {
+    return {parameters_.noise, parameters_.smooth_error, parameters_.wide_error};
   }
 
   const Detection& refuse(State state, const Sentence& sentence) {
@@ -203,6 +209,10 @@ class DominantPlaneDetector::Implementation {
     detection_.distance = plane.distance;
     detection_.inliers = counts.ground;
     detection_.mean_square_error = counts.mean_square_error;
+    if (parameters_.covariance) {
+      detection_.covariance =
+          covariance_.estimate(tiles_, grid_.ground(), plane, errorSizes(), input.depth.width);
+    }
     return detection_;
   }
 
@@ -212,6 +222,7 @@ class DominantPlaneDetector::Implementation {
   GridSearch grid_;
   KdtreeSearch kdtree_;
   GroundSegmentation segmentation_;
+  PlaneCovariance covariance_;
   Detection detection_;
 };
 

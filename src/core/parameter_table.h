@@ -58,6 +58,13 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
   visit(Info{"smooth_error_quadratic", "1/m", 0, 0.1,
              "rms of 112 x 112 pixels of a floor over its plane per squared depth"},
         p.smooth_error.quadratic);
+  visit(Info{"wide_error_constant", "m", 0, 1,
+             "constant part of the rms error that a large part of an image shares"},
+        p.wide_error.constant);
+  visit(Info{"wide_error_quadratic", "1/m", 0, 0.1,
+             "rms error that a large part of an image shares per squared depth over the cosine of "
+             "the angle of incidence"},
+        p.wide_error.quadratic);
   visit(Info{"seeds", "#", 1, 10000, "most seeds that are tried"}, p.seeds);
   visit(Info{"subsampling", "px", 1, 16, "every n-th point of every n-th row (kdtree only)"},
         p.subsampling);
@@ -97,6 +104,7 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
   visit(Info{"min_obstacle_width", "m", 0, 1,
              "narrowest obstacle within the ground band, and narrowest drop-off"},
         p.min_obstacle_width);
+  visit(Info{"covariance", "-", 0, 1, "of normal and distance; false: unknown"}, p.covariance);
   visit(Info{"min_patch", "px", 0, 1000000,
              "smallest connected piece of ground, if the image had 640 x 480 pixels"},
         p.min_patch);

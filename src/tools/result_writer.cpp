@@ -39,6 +39,15 @@ std::string reasonOf(const Frame& frame, const Detection& detection) {
   return detection.reason + (more.empty() ? "" : " " + more);
 }
 
+/// @return 16 numbers, row-major, of [normal, distance]; empty while they are not known.
+std::string covarianceText(const Detection& detection) {
+  if (detection.covariance(0, 0) < 0.0) return "";
+  const Eigen::IOFormat in_one_line(9, Eigen::DontAlignCols, " ", " ");
+  std::ostringstream text;
+  text << detection.covariance.format(in_one_line);
+  return text.str();
+}
+
 }  // namespace
 
 ResultWriter::ResultWriter(const std::string& folder, bool labels)
@@ -47,7 +56,7 @@ ResultWriter::ResultWriter(const std::string& folder, bool labels)
   if (labels) makeFolder(folder + "/labels");
   planes_.open(folder + "/planes.csv");
   if (!planes_) throw std::runtime_error(folder + "/planes.csv: could not be written");
-  planes_ << "frame,state,normal_x,normal_y,normal_z,distance,mse,inliers,ms,reason\n";
+  planes_ << "frame,state,normal_x,normal_y,normal_z,distance,mse,inliers,ms,reason,covariance\n";
 }
 
 void ResultWriter::write(const Frame& frame, const Detection& detection, double ms) {
@@ -60,7 +69,7 @@ void ResultWriter::write(const Frame& frame, const Detection& detection, double 
     planes_ << ",,,,";
   }
   planes_ << ',' << detection.inliers << ',' << std::setprecision(4) << ms << ','
-          << quoted(reasonOf(frame, detection)) << '\n';
+          << quoted(reasonOf(frame, detection)) << ',' << covarianceText(detection) << '\n';
   if (!planes_.flush()) throw std::runtime_error(folder_ + "/planes.csv: could not be written");
   writePng(folder_ + "/masks", frame.name, groundMask(detection));
   if (labels_) writePng(folder_ + "/labels", frame.name, labelImage(detection));

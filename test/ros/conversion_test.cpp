@@ -323,7 +323,10 @@ TEST_F(DetectionMessages, PlaneCoefficientsAndMask) {
   EXPECT_EQ(plane->state, DominantPlane::FOUND);
   EXPECT_NEAR(plane->normal.y, -std::cos(0.6), 1e-3);
   EXPECT_NEAR(plane->distance, 0.8, 1e-3);
-  EXPECT_EQ(plane->covariance[0], -1.0);
+  // Row-major: the last row and column are the distance's.
+  EXPECT_EQ(plane->covariance[15], detection.covariance(3, 3));
+  EXPECT_EQ(plane->covariance[7], detection.covariance(1, 3));
+  EXPECT_GT(plane->covariance[15], 0.0);
   EXPECT_EQ(plane->up_source, DominantPlane::UP_FIXED);
   const auto coefficients = coefficientsMessage(header_, detection);
   ASSERT_EQ(coefficients->values.size(), 4U);

@@ -81,7 +81,8 @@ class Parameters(unittest.TestCase):
             plain = parameters(load(name, **arguments), node)
             profile = parameters(load(name, sensor="xtion", **arguments), node)
             changed = {key: profile[key] for key in profile if profile[key] != plain[key]}
-            self.assertEqual(changed, {"smooth_error_constant": 0.0004, "local_error_constant": 0.0009,
+            self.assertEqual(changed, {"smooth_error_constant": 0.0004, "wide_error_constant": 0.006,
+                                       "wide_error_quadratic": 0.0006, "local_error_constant": 0.0009,
                                        "local_error_quadratic": 0.0005}, name)
 
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
+#include "support/mahalanobis.h"
 #include "support/scoring.h"
 
 namespace dominant_plane_detection {
@@ -34,6 +35,9 @@ HalfDifference compareHalves(const ReferenceSet& set, const ReferenceImage& imag
   if (!difference.found) return difference;
   difference.angle = std::acos(std::clamp(left.normal.dot(right.normal), -1.0, 1.0));
   difference.height = std::abs(left.distance - right.distance);
+  difference.square =
+      squaredMahalanobis(left.covariance + right.covariance,
+                         planeDifference(left.normal, left.distance, right.normal, right.distance));
   return difference;
 }
 

@@ -13,6 +13,7 @@ struct HalfDifference {
   bool found = false;   ///< a plane in both halves
   double angle = 0.0;   ///< [rad] between the normals
   double height = 0.0;  ///< [m] between the camera's distances to the two, absolute
+  double square = 0.0;  ///< [-] squared Mahalanobis distance, by the two covariances
 };
 
 /// Runs the detector on each half alone: the other half's readings are 0.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
+#include "support/mahalanobis.h"
 #include "support/scoring.h"
 #include "synthetic_set.h"
 
@@ -39,9 +40,15 @@ TEST(SmoothRandomScenes, GridFindsTheTruthAsWellAsTheReadingsAllow) {
   const ReferenceSet set = loadSmoothRandomScenes(60);
   DominantPlaneDetector detector;
   std::vector<Score> scores;
+  std::vector<double> squares;
   for (const ReferenceImage& image : set.images) {
-    scores.push_back(score(detector.detect(set.view(image), set.camera), set, image));
+    const Detection& detection = detector.detect(set.view(image), set.camera);
+    scores.push_back(score(detection, set, image));
     EXPECT_TRUE(scores.back().found) << "scene " << image.name;
+    if (scores.back().failed()) continue;
+    squares.push_back(squaredMahalanobis(
+        detection.covariance,
+        planeDifference(detection.normal, detection.distance, image.up, image.height)));
   }
   const Summary summary = summarize(scores);
   // In some of the images the error of half the floor is several times sigma(z).
@@ -50,6 +57,10 @@ TEST(SmoothRandomScenes, GridFindsTheTruthAsWellAsTheReadingsAllow) {
   EXPECT_LE(summary.angle_median, 1.0 * kDegree);
   EXPECT_LE(summary.height_median, 0.012);
   EXPECT_GE(summary.iou_median, 0.95);
+  // And it knows how far off it may be: 3 and 7.8 were these errors those of the covariance.
+  EXPECT_NEAR(quantile(squares, 0.5), 2.37, 1.2);
+  EXPECT_GE(quantile(squares, 0.95), 5.0);
+  EXPECT_LE(quantile(squares, 0.90), 9.5);
 }
 
 TEST_F(RandomScenes, KdtreeAgreesWithGrid) {

@@ -71,13 +71,18 @@ class DetectPlanes : public testing::Test {
   static std::map<std::string, Row> planes() { return readCsv(folder_ / "out" / "planes.csv"); }
 
   static void expectTruth(const Row& row) {
-    ASSERT_EQ(row.size(), 10U);
+    ASSERT_EQ(row.size(), 11U);
     EXPECT_EQ(row[1], "FOUND");
     EXPECT_EQ(row[9], "");
     EXPECT_NEAR(std::stod(row[3]), -std::cos(0.22), 0.002);
     EXPECT_NEAR(std::stod(row[4]), -std::sin(0.22), 0.002);
     EXPECT_NEAR(std::stod(row[5]), 0.45, 0.002);
     EXPECT_GT(std::stoi(row[7]), 100000);
+    std::istringstream covariance(row[10]);
+    const std::vector<double> numbers{std::istream_iterator<double>(covariance), {}};
+    ASSERT_EQ(numbers.size(), 16U) << row[10];
+    EXPECT_GT(numbers[15], 0.0);
+    EXPECT_EQ(numbers[7], numbers[13]) << "of a normal's y and the distance";
   }
 
   static fs::path folder_;
@@ -91,7 +96,7 @@ TEST_F(DetectPlanes, FolderOfPngFiles) {
   const auto rows = planes();
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows.at("frame"), (Row{"frame", "state", "normal_x", "normal_y", "normal_z", "distance",
-                                   "mse", "inliers", "ms", "reason"}));
+                                   "mse", "inliers", "ms", "reason", "covariance"}));
   expectTruth(rows.at("0000"));
   expectTruth(rows.at("0001"));
   const cv::Mat mask = cv::imread(path("out/masks/0001.png"), cv::IMREAD_UNCHANGED);
@@ -203,7 +208,7 @@ TEST_F(DetectPlanes, AnImageWithoutAPlaneHasItsRowAndABlackMask) {
   const Outcome outcome = detect(path("empty.png") + kCamera);
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   const Row row = planes().at("empty");
-  ASSERT_EQ(row.size(), 10U);
+  ASSERT_EQ(row.size(), 11U);
   EXPECT_NE(row[9].find("There are no readings at all"), std::string::npos) << row[9];
   EXPECT_EQ(row[1], "NO_DEPTH");
   for (int i = 2; i <= 6; ++i) EXPECT_EQ(row[static_cast<std::size_t>(i)], "");
