@@ -28,8 +28,9 @@ enum class Label : std::uint8_t {
   kUnknown = 0,  ///< no reading, out of range but for drop-offs, a speck at the ground's height, or
                  ///< an edge's smear
   kGround = 1,
-  kObstacle = 2,  ///< above the ground
-  kDropOff = 3,   ///< below the ground
+  kObstacle = 2,       ///< above the ground
+  kDropOff = 3,        ///< below the ground
+  kMissingGround = 4,  ///< no reading where the ground should be seen
 };
 
 /// Where the expected "up" direction came from. The values are those of DominantPlane.msg.

@@ -38,6 +38,7 @@ struct Parameters {
   double false_alarm_rate = 0.2;       ///< [1/image] of low obstacles; 0: ground_band alone decides
   double min_obstacle_height = 0.005;  ///< [m] lowest obstacle within the ground band
   double min_obstacle_width = 0.08;    ///< [m] narrowest one
+  bool missing_ground = true;          ///< is told from what is unknown
   bool covariance = true;              ///< of normal and distance
   int min_patch = 400;      ///< [px] smallest connected piece of ground, of 640 x 480 pixels
   double min_share = 0.05;  ///< [-] smallest plane, as a share of the valid pixels

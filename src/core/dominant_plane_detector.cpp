@@ -10,6 +10,7 @@
 #include "core/grid_search.h"
 #include "core/ground_segmentation.h"
 #include "core/kdtree_search.h"
+#include "core/missing_ground.h"
 #include "core/plane_covariance.h"
 #include "core/plane_selection.h"
 #include "core/ray_table.h"
@@ -209,6 +210,9 @@ class DominantPlaneDetector::Implementation {
     detection_.distance = plane.distance;
     detection_.inliers = counts.ground;
     detection_.mean_square_error = counts.mean_square_error;
+    if (parameters_.missing_ground) {
+      missing_ground_.mark(input, plane, tiles_, parameters_.min_obstacle_width, detection_.labels);
+    }
     if (parameters_.covariance) {
       detection_.covariance =
           covariance_.estimate(tiles_, grid_.ground(), plane, errorSizes(), input.depth.width);
@@ -222,6 +226,7 @@ class DominantPlaneDetector::Implementation {
   GridSearch grid_;
   KdtreeSearch kdtree_;
   GroundSegmentation segmentation_;
+  MissingGround missing_ground_;
   PlaneCovariance covariance_;
   Detection detection_;
 };

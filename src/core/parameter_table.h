@@ -104,6 +104,11 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
   visit(Info{"min_obstacle_width", "m", 0, 1,
              "narrowest obstacle within the ground band, and narrowest drop-off"},
         p.min_obstacle_width);
+  visit(
+      Info{
+          "missing_ground", "-", 0, 1,
+          "no reading where ground should be seen is labelled, from min_obstacle_width squared on"},
+      p.missing_ground);
   visit(Info{"covariance", "-", 0, 1, "of normal and distance; false: unknown"}, p.covariance);
   visit(Info{"min_patch", "px", 0, 1000000,
              "smallest connected piece of ground, if the image had 640 x 480 pixels"},

@@ -146,11 +146,17 @@ std::optional<CloudReader::Image> CloudReader::read(const sensor_msgs::PointClou
 
 sensor_msgs::PointCloud2Ptr labelledPoints(const DepthView& depth, const RayTable& rays,
                                            const Detection& detection, Label label) {
+  const Eigen::Vector3f normal = detection.normal.cast<float>();
+  const auto distance = static_cast<float>(detection.distance);
   pcl::PointCloud<pcl::PointXYZ> cloud;
   for (int v = 0; v < detection.image_height; ++v) {
     for (int u = 0; u < detection.image_width; ++u) {
       if (detection.label(u, v) != label) continue;
-      const Eigen::Vector3f point = metresAt(depth, u, v) * rays.ray(u, v);
+      const Eigen::Vector3f ray = rays.ray(u, v);
+      // What was not read is where the plane is.
+      const float z =
+          label == Label::kMissingGround ? -distance / normal.dot(ray) : metresAt(depth, u, v);
+      const Eigen::Vector3f point = z * ray;
       cloud.push_back({point.x(), point.y(), point.z()});
     }
   }

@@ -33,8 +33,8 @@ class CloudReader {
   std::vector<float> depth_;
 };
 
-/// @return the points of the pixels with a label, in PCL's layout of PointXYZ, unorganised and
-/// dense. The header is left to the caller.
+/// @return the points of the pixels with a label, those of missing ground on the plane, in PCL's
+/// layout of PointXYZ, unorganised and dense. The header is left to the caller.
 sensor_msgs::PointCloud2Ptr labelledPoints(const DepthView& depth, const RayTable& rays,
                                            const Detection& detection, Label label);
 

@@ -42,9 +42,10 @@ class DetectionOutputs {
 
   ros::Publisher plane_;
   ros::Publisher coefficients_;
-  std::array<LabelledCloud, 3> clouds_{{{topics::kObstacles, Label::kObstacle, {}},
+  std::array<LabelledCloud, 4> clouds_{{{topics::kObstacles, Label::kObstacle, {}},
                                         {topics::kGround, Label::kGround, {}},
-                                        {topics::kDropOffs, Label::kDropOff, {}}}};
+                                        {topics::kDropOffs, Label::kDropOff, {}},
+                                        {topics::kMissingGround, Label::kMissingGround, {}}}};
   ros::Publisher outline_;
   ros::Publisher markers_;
   image_transport::Publisher mask_;

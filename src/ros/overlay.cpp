@@ -9,6 +9,7 @@ namespace {
 const cv::Vec3b kNoReading(72, 32, 24);
 const cv::Vec3b kObstacleTint(60, 60, 255);
 const cv::Vec3b kDropOffTint(0, 220, 255);
+const cv::Vec3b kMissingGroundTint(255, 60, 200);
 
 cv::Vec3b tinted(const cv::Vec3b& pixel, const cv::Vec3b& tint) {
   cv::Vec3b mixed;
@@ -45,6 +46,9 @@ void paintOverlay(const Detection& detection, cv::Mat& picture) {
           break;
         case Label::kDropOff:
           pixel = tinted(pixel, kDropOffTint);
+          break;
+        case Label::kMissingGround:
+          pixel = tinted(pixel, kMissingGroundTint);
           break;
         case Label::kUnknown:
           break;

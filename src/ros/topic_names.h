@@ -23,6 +23,7 @@ constexpr const char* kOverlay = "overlay";
 constexpr const char* kObstacles = "obstacles";
 constexpr const char* kGround = "ground";
 constexpr const char* kDropOffs = "drop_offs";
+constexpr const char* kMissingGround = "missing_ground";
 constexpr const char* kOutline = "outline";
 constexpr const char* kMarkers = "markers";
 

@@ -40,8 +40,9 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--output", options.output, "folder for the results, made where it is missing")
       ->required()
       ->type_name("DIR");
-  app.add_flag("--labels", options.labels,
-               "also writes labels/: 0 unknown, 1 ground, 2 obstacle, 3 drop-off");
+  app.add_flag(
+      "--labels", options.labels,
+      "also writes labels/: 0 unknown, 1 ground, 2 obstacle, 3 drop-off, 4 missing ground");
 }
 
 /// Prints errors at once, or after the progress bar where there is one, and remembers that there

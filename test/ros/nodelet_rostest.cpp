@@ -97,6 +97,24 @@ TEST_F(Nodelet, DropOffsAreACloud) {
   }
 }
 
+/// A hole of 80 x 60 pixels without readings: its cloud is on the plane.
+TEST_F(Nodelet, MissingGroundIsACloudOnThePlane) {
+  Listener<DominantPlane> planes(node_, "/plane_detection/plane");
+  Listener<pcl::PointCloud<pcl::PointXYZ>> missing(node_, "/plane_detection/missing_ground");
+  ASSERT_TRUE(waitForSubscription());
+  ASSERT_TRUE(spinUntil([&] { return planes.connected() && missing.connected(); }));
+  sensor_msgs::Image image = image_;
+  auto* pixels = reinterpret_cast<std::uint16_t*>(image.data.data());
+  for (int v = 400; v < 460; ++v) std::fill_n(pixels + v * 640 + 100, 80, std::uint16_t{0});
+  expectTruth(detect(planes, image));
+  ASSERT_TRUE(spinUntil([&] { return missing.size() > 0; }));
+  EXPECT_EQ(missing.last()->size(), 4800U);
+  for (const auto& point : *missing.last()) {
+    ASSERT_NEAR(kUp.dot(point.getVector3fMap().cast<double>()) + kHeight, 0.0, 0.002);
+    ASSERT_GT(point.z, 0.3F);
+  }
+}
+
 sensor_msgs::Image bluePicture() {
   sensor_msgs::Image picture;
   picture.encoding = "rgb8";
