@@ -33,6 +33,19 @@ enum class Label : std::uint8_t {
   kMissingGround = 4,  ///< no reading where the ground should be seen
 };
 
+/// What a plane beside the dominant one is, were the dominant one the ground. The values are those
+/// of DominantPlaneArray.msg.
+enum class PlaneKind : std::uint8_t {
+  kFloor = 0,  ///< as high as the ground
+  kRamp,       ///< 5 to 45 degrees steep, or less and joined to the ground
+  kStep,       ///< level, up to 0.35 m higher or lower
+  kTable,      ///< level, more than that
+  kWall,       ///< steeper than 45 degrees
+};
+
+/// @return the name in planes_more.csv, for example "ramp".
+const char* kindName(PlaneKind kind);
+
 /// Where the expected "up" direction came from. The values are those of DominantPlane.msg.
 enum class UpSource : std::uint8_t { kNone = 0, kFixed, kImu, kTf };
 
@@ -44,6 +57,16 @@ struct Effort {
   std::size_t joined = 0;    ///< of these, those that joined a region
   std::size_t fits = 0;      ///< of a plane
   std::size_t searches = 0;  ///< in the k-d tree (kdtree)
+};
+
+/// A plane beside the dominant one; normal, distance and covariance as there.
+struct FurtherPlane {
+  PlaneKind kind = PlaneKind::kFloor;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double distance = 0.0;                                 ///< [m]
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< the first element -1: not known
+  double mean_square_error = 0.0;                        ///< [m^2] of the inliers
+  std::size_t inliers = 0;                               ///< [px]
 };
 
 /// The dominant plane of one depth image, in the depth optical frame.
@@ -59,13 +82,19 @@ struct Detection {
   /// Of [normal, distance]; the first element is -1 while it is not known.
   Eigen::Matrix4d covariance = unknownCovariance();
   double mean_square_error = std::numeric_limits<double>::quiet_NaN();  ///< [m^2] Eq. 8, inliers
-  std::size_t inliers = 0;                                              ///< [px] labelled ground
+  /// [px] labelled ground; those of ramps (`max_ramp`) are not among them.
+  std::size_t inliers = 0;
   std::size_t valid_pixels = 0;  ///< [px] with a reading within the range limits
   UpSource up_source = UpSource::kNone;
   Effort effort;
   int image_width = 0;               ///< [px]
   int image_height = 0;              ///< [px]
   std::vector<std::uint8_t> labels;  ///< `Label` of each pixel, row-major
+  /// Largest first, at most `max_planes` less the dominant one.
+  std::vector<FurtherPlane> further_planes;
+  /// The number of each pixel's plane, row-major: 0 none, 1 the dominant one, 2 the first of the
+  /// further ones; empty unless further planes are looked for.
+  std::vector<std::uint8_t> plane_index;
 
   /// @param point [m] in the optical frame.
   /// @return [m] its height over the plane, NaN without one.

@@ -38,10 +38,12 @@ struct Parameters {
   double false_alarm_rate = 0.2;       ///< [1/image] of low obstacles; 0: ground_band alone decides
   double min_obstacle_height = 0.005;  ///< [m] lowest obstacle within the ground band
   double min_obstacle_width = 0.08;    ///< [m] narrowest one
-  bool missing_ground = true;          ///< is told from what is unknown
-  bool covariance = true;              ///< of normal and distance
-  int min_patch = 400;      ///< [px] smallest connected piece of ground, of 640 x 480 pixels
-  double min_share = 0.05;  ///< [-] smallest plane, as a share of the valid pixels
+  int max_planes = 1;                  ///< [#] planes that are told, the dominant one among them
+  double max_ramp = 0.0;       ///< [rad] steepest ramp that is ground where it joins it; 0: none is
+  bool missing_ground = true;  ///< is told from what is unknown
+  bool covariance = true;      ///< of normal and distance
+  int min_patch = 400;         ///< [px] smallest connected piece of ground, of 640 x 480 pixels
+  double min_share = 0.05;     ///< [-] smallest plane, as a share of the valid pixels
   Eigen::Vector3d expected_up{0.0, -1.0, 0.0};  ///< [-] in the optical frame, of any length
   double max_tilt = 1.05;    ///< [rad] largest angle between normal and expected up
   double min_height = 0.0;   ///< [m] lowest camera height over the plane

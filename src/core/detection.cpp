@@ -24,4 +24,20 @@ const char* stateName(State state) {
   return "";
 }
 
+const char* kindName(PlaneKind kind) {
+  switch (kind) {
+    case PlaneKind::kFloor:
+      return "floor";
+    case PlaneKind::kRamp:
+      return "ramp";
+    case PlaneKind::kStep:
+      return "step";
+    case PlaneKind::kTable:
+      return "table";
+    case PlaneKind::kWall:
+      return "wall";
+  }
+  return "";
+}
+
 }  // namespace dominant_plane_detection

@@ -12,6 +12,7 @@
 #include "core/kdtree_search.h"
 #include "core/missing_ground.h"
 #include "core/plane_covariance.h"
+#include "core/plane_inventory.h"
 #include "core/plane_selection.h"
 #include "core/ray_table.h"
 #include "core/tile_moments.h"
@@ -139,6 +140,13 @@ class DominantPlaneDetector::Implementation {
     return static_cast<std::size_t>(std::ceil(parameters_.min_patch * share));
   }
 
+  /// @return [px] smallest further plane: they need half of what the dominant one needs.
+  std::size_t minFurther() const {
+    const auto valid = static_cast<double>(detection_.valid_pixels);
+    return std::max(static_cast<std::size_t>(std::ceil(0.5 * parameters_.min_share * valid)),
+                    minPatch());
+  }
+
   float rangeMin() const { return static_cast<float>(parameters_.range_min); }
   float rangeMax() const { return static_cast<float>(parameters_.range_max); }
 
@@ -154,6 +162,8 @@ class DominantPlaneDetector::Implementation {
     detection_.inliers = 0;
     detection_.valid_pixels = 0;
     detection_.effort = Effort();
+    detection_.further_planes.clear();
+    detection_.plane_index.clear();
     detection_.up_source = prior.expected_up ? prior.up_source : UpSource::kFixed;
     const bool possible = isPossible(depth);
     detection_.image_width = possible ? depth.width : 0;
@@ -210,6 +220,9 @@ class DominantPlaneDetector::Implementation {
     detection_.distance = plane.distance;
     detection_.inliers = counts.ground;
     detection_.mean_square_error = counts.mean_square_error;
+    inventory_.tell(
+        {input, tiles_, plane, grid_.ground(), minFurther(), {parameters_.join_pieces, minPatch()}},
+        parameters_, detection_);
     if (parameters_.missing_ground) {
       missing_ground_.mark(input, plane, tiles_, parameters_.min_obstacle_width, detection_.labels);
     }
@@ -227,6 +240,7 @@ class DominantPlaneDetector::Implementation {
   KdtreeSearch kdtree_;
   GroundSegmentation segmentation_;
   MissingGround missing_ground_;
+  PlaneInventory inventory_;
   PlaneCovariance covariance_;
   Detection detection_;
 };

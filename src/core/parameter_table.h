@@ -106,6 +106,14 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
         p.min_obstacle_width);
   visit(
       Info{
+          "max_planes", "#", 1, 32,
+          "planes that are told, the dominant one among them; further ones need half of min_share"},
+      p.max_planes);
+  visit(Info{"max_ramp", "rad", 0, 0.78,
+             "steepest ramp that is labelled ground where it joins the ground; 0: none is"},
+        p.max_ramp);
+  visit(
+      Info{
           "missing_ground", "-", 0, 1,
           "no reading where ground should be seen is labelled, from min_obstacle_width squared on"},
       p.missing_ground);

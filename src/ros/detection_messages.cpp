@@ -6,6 +6,61 @@
 #include <boost/make_shared.hpp>
 
 namespace dominant_plane_detection {
+namespace {
+
+geometry_msgs::Vector3 vectorMessage(const Eigen::Vector3d& vector) {
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
+geometry_msgs::Point pointMessage(const Eigen::Vector3d& point) {
+  geometry_msgs::Point message;
+  message.x = point.x();
+  message.y = point.y();
+  message.z = point.z();
+  return message;
+}
+
+std_msgs::ColorRGBA colour(float red, float green, float blue, float alpha) {
+  std_msgs::ColorRGBA message;
+  message.r = red;
+  message.g = green;
+  message.b = blue;
+  message.a = alpha;
+  return message;
+}
+
+std_msgs::ColorRGBA colourOf(PlaneKind kind) {
+  switch (kind) {
+    case PlaneKind::kFloor:
+      return colour(0.1F, 0.6F, 1.0F, 1.0F);
+    case PlaneKind::kRamp:
+      return colour(0.2F, 0.9F, 0.3F, 1.0F);
+    case PlaneKind::kStep:
+      return colour(1.0F, 0.8F, 0.1F, 1.0F);
+    case PlaneKind::kTable:
+      return colour(1.0F, 0.4F, 0.1F, 1.0F);
+    case PlaneKind::kWall:
+      return colour(0.8F, 0.8F, 0.8F, 1.0F);
+  }
+  return colour(1.0F, 1.0F, 1.0F, 1.0F);
+}
+
+/// @return mono8, without its pixels.
+sensor_msgs::ImagePtr byteImage(const std_msgs::Header& header, const Detection& detection) {
+  auto message = boost::make_shared<sensor_msgs::Image>();
+  message->header = header;
+  message->encoding = sensor_msgs::image_encodings::MONO8;
+  message->width = static_cast<std::uint32_t>(detection.image_width);
+  message->height = static_cast<std::uint32_t>(detection.image_height);
+  message->step = message->width;
+  return message;
+}
+
+}  // namespace
 
 DominantPlanePtr planeMessage(const std_msgs::Header& header, const Detection& detection,
                               double processing_time) {
@@ -13,9 +68,7 @@ DominantPlanePtr planeMessage(const std_msgs::Header& header, const Detection& d
   message->header = header;
   message->state = static_cast<std::uint8_t>(detection.state);
   message->reason = detection.reason;
-  message->normal.x = detection.normal.x();
-  message->normal.y = detection.normal.y();
-  message->normal.z = detection.normal.z();
+  message->normal = vectorMessage(detection.normal);
   message->distance = detection.distance;
   // Symmetric, so Eigen's column-major order is the message's row-major one.
   std::copy_n(detection.covariance.data(), message->covariance.size(), message->covariance.begin());
@@ -25,6 +78,28 @@ DominantPlanePtr planeMessage(const std_msgs::Header& header, const Detection& d
   message->up_source = static_cast<std::uint8_t>(detection.up_source);
   message->tracked = false;
   message->processing_time = static_cast<float>(processing_time);
+  return message;
+}
+
+DominantPlaneArrayPtr planesMessage(const std_msgs::Header& header, const Detection& detection,
+                                    double processing_time) {
+  auto message = boost::make_shared<DominantPlaneArray>();
+  message->header = header;
+  if (!detection.found()) return message;
+  message->planes.push_back(*planeMessage(header, detection, processing_time));
+  message->kinds.push_back(DominantPlaneArray::FLOOR);
+  for (const FurtherPlane& further : detection.further_planes) {
+    DominantPlane plane = message->planes.front();
+    plane.normal = vectorMessage(further.normal);
+    plane.distance = further.distance;
+    std::copy_n(further.covariance.data(), plane.covariance.size(), plane.covariance.begin());
+    plane.mean_square_error = further.mean_square_error;
+    plane.inliers = static_cast<std::uint32_t>(further.inliers);
+    plane.inlier_share = static_cast<float>(static_cast<double>(further.inliers) /
+                                            static_cast<double>(detection.valid_pixels));
+    message->planes.push_back(plane);
+    message->kinds.push_back(static_cast<std::uint8_t>(further.kind));
+  }
   return message;
 }
 
@@ -38,12 +113,7 @@ pcl_msgs::ModelCoefficientsPtr coefficientsMessage(const std_msgs::Header& heade
 }
 
 sensor_msgs::ImagePtr labelsMessage(const std_msgs::Header& header, const Detection& detection) {
-  auto message = boost::make_shared<sensor_msgs::Image>();
-  message->header = header;
-  message->encoding = sensor_msgs::image_encodings::MONO8;
-  message->width = static_cast<std::uint32_t>(detection.image_width);
-  message->height = static_cast<std::uint32_t>(detection.image_height);
-  message->step = message->width;
+  sensor_msgs::ImagePtr message = byteImage(header, detection);
   message->data = detection.labels;
   return message;
 }
@@ -52,6 +122,17 @@ sensor_msgs::ImagePtr maskMessage(const std_msgs::Header& header, const Detectio
   sensor_msgs::ImagePtr message = labelsMessage(header, detection);
   constexpr auto kGround = static_cast<std::uint8_t>(Label::kGround);
   for (std::uint8_t& pixel : message->data) pixel = pixel == kGround ? 255 : 0;
+  return message;
+}
+
+sensor_msgs::ImagePtr planeIndexMessage(const std_msgs::Header& header,
+                                        const Detection& detection) {
+  sensor_msgs::ImagePtr message = byteImage(header, detection);
+  message->data = detection.plane_index;
+  if (!message->data.empty()) return message;
+  message->data = detection.labels;
+  constexpr auto kGround = static_cast<std::uint8_t>(Label::kGround);
+  for (std::uint8_t& pixel : message->data) pixel = pixel == kGround ? 1 : 0;
   return message;
 }
 
@@ -84,21 +165,6 @@ visualization_msgs::MarkerArrayPtr markersMessage(const std_msgs::Header& header
     message->markers.push_back(marker);
     return message->markers.back();
   };
-  const auto colour = [](float r, float g, float b, float a) {
-    std_msgs::ColorRGBA rgba;
-    rgba.r = r;
-    rgba.g = g;
-    rgba.b = b;
-    rgba.a = a;
-    return rgba;
-  };
-  const auto point = [](const Eigen::Vector3d& r) {
-    geometry_msgs::Point p;
-    p.x = r.x();
-    p.y = r.y();
-    p.z = r.z();
-    return p;
-  };
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& corner : outline) {
     middle += corner / static_cast<double>(outline.size());
@@ -109,7 +175,7 @@ visualization_msgs::MarkerArrayPtr markersMessage(const std_msgs::Header& header
   sheet.scale.x = sheet.scale.y = sheet.scale.z = 1.0;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     for (const Eigen::Vector3d& corner : {middle, outline[i], outline[(i + 1) % outline.size()]}) {
-      sheet.points.push_back(point(corner));
+      sheet.points.push_back(pointMessage(corner));
     }
   }
   Marker& arrow = add("normal", Marker::ARROW);
@@ -118,9 +184,30 @@ visualization_msgs::MarkerArrayPtr markersMessage(const std_msgs::Header& header
   arrow.scale.y = 0.05;  // [m] of the head
   if (!outline.empty()) {
     constexpr double kLength = 0.3;  // [m]
-    arrow.points = {point(middle), point(middle + kLength * detection.normal)};
+    arrow.points = {pointMessage(middle), pointMessage(middle + kLength * detection.normal)};
   }
   return message;
+}
+
+void addFurtherPlanes(const std_msgs::Header& header, const Detection& detection,
+                      const std::vector<std::vector<Eigen::Vector3d>>& outlines,
+                      visualization_msgs::MarkerArray& markers) {
+  using visualization_msgs::Marker;
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    if (outlines[i].empty()) continue;
+    Marker line;
+    line.header = header;
+    line.ns = "further_planes";
+    line.id = static_cast<int>(i);
+    line.type = Marker::LINE_STRIP;
+    line.pose.orientation.w = 1.0;
+    line.lifetime = ros::Duration(0.5);
+    line.scale.x = 0.02;  // [m]
+    line.color = colourOf(detection.further_planes[i].kind);
+    for (const Eigen::Vector3d& corner : outlines[i]) line.points.push_back(pointMessage(corner));
+    line.points.push_back(line.points.front());
+    markers.markers.push_back(line);
+  }
 }
 
 }  // namespace dominant_plane_detection

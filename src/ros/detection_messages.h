@@ -1,6 +1,7 @@
 #pragma once
 
 #include <dominant_plane_detection/DominantPlane.h>
+#include <dominant_plane_detection/DominantPlaneArray.h>
 #include <geometry_msgs/PolygonStamped.h>
 #include <pcl_msgs/ModelCoefficients.h>
 #include <sensor_msgs/Image.h>
@@ -15,6 +16,14 @@ namespace dominant_plane_detection {
 /// @param processing_time [s]
 DominantPlanePtr planeMessage(const std_msgs::Header& header, const Detection& detection,
                               double processing_time);
+
+/// @return the dominant plane and the further ones; none without a plane.
+DominantPlaneArrayPtr planesMessage(const std_msgs::Header& header, const Detection& detection,
+                                    double processing_time);
+
+/// @return mono8, the number of each pixel's plane: 0 none, 1 the dominant one, 2 the first of the
+/// further ones. Where these are not looked for there is the dominant one alone.
+sensor_msgs::ImagePtr planeIndexMessage(const std_msgs::Header& header, const Detection& detection);
 
 /// @return [a b c d] with a x + b y + c z + d = 0, as PCL has it.
 /// @pre detection.found()
@@ -36,5 +45,12 @@ geometry_msgs::PolygonStampedPtr outlineMessage(const std_msgs::Header& header,
 visualization_msgs::MarkerArrayPtr markersMessage(const std_msgs::Header& header,
                                                   const Detection& detection,
                                                   const std::vector<Eigen::Vector3d>& outline);
+
+/// Adds the outlines of further planes as closed lines, with a colour for each kind; they last half
+/// a second.
+/// @param outlines [m] corners, of each further plane.
+void addFurtherPlanes(const std_msgs::Header& header, const Detection& detection,
+                      const std::vector<std::vector<Eigen::Vector3d>>& outlines,
+                      visualization_msgs::MarkerArray& markers);
 
 }  // namespace dominant_plane_detection

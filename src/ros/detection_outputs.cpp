@@ -24,6 +24,7 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
         listeners_changed();
       };
   plane_ = node.advertise<DominantPlane>(topics::kPlane, kQueue, changed, changed);
+  planes_ = node.advertise<DominantPlaneArray>(topics::kPlanes, kQueue, changed, changed);
   coefficients_ =
       node.advertise<pcl_msgs::ModelCoefficients>(topics::kCoefficients, kQueue, changed, changed);
   for (LabelledCloud& cloud : clouds_) {
@@ -37,15 +38,17 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
   image_transport::ImageTransport transport(node);
   mask_ = transport.advertise(topics::kGroundMask, kQueue, image_changed, image_changed);
   labels_ = transport.advertise(topics::kLabels, kQueue, image_changed, image_changed);
+  plane_index_ = transport.advertise(topics::kPlaneIndex, kQueue, image_changed, image_changed);
 }
 
 bool DetectionOutputs::anybodyListens() const {
   const bool to_clouds = std::any_of(clouds_.begin(), clouds_.end(), [](const auto& cloud) {
     return cloud.publisher.getNumSubscribers() > 0;
   });
-  return to_clouds || plane_.getNumSubscribers() + coefficients_.getNumSubscribers() +
-                              outline_.getNumSubscribers() + markers_.getNumSubscribers() +
-                              mask_.getNumSubscribers() + labels_.getNumSubscribers() >
+  return to_clouds || plane_.getNumSubscribers() + planes_.getNumSubscribers() +
+                              coefficients_.getNumSubscribers() + outline_.getNumSubscribers() +
+                              markers_.getNumSubscribers() + mask_.getNumSubscribers() +
+                              labels_.getNumSubscribers() + plane_index_.getNumSubscribers() >
                           0;
 }
 
@@ -54,11 +57,17 @@ void DetectionOutputs::publish(const DetectionInputs::Frame& frame, const Detect
   if (plane_.getNumSubscribers() > 0) {
     plane_.publish(planeMessage(frame.header, detection, processing_time));
   }
+  if (planes_.getNumSubscribers() > 0) {
+    planes_.publish(planesMessage(frame.header, detection, processing_time));
+  }
   if (detection.found() && coefficients_.getNumSubscribers() > 0) {
     coefficients_.publish(coefficientsMessage(frame.header, detection));
   }
   if (mask_.getNumSubscribers() > 0) mask_.publish(maskMessage(frame.header, detection));
   if (labels_.getNumSubscribers() > 0) labels_.publish(labelsMessage(frame.header, detection));
+  if (plane_index_.getNumSubscribers() > 0) {
+    plane_index_.publish(planeIndexMessage(frame.header, detection));
+  }
   publishClouds(frame, detection);
   publishShapes(frame, detection);
 }
@@ -81,7 +90,11 @@ void DetectionOutputs::publishShapes(const DetectionInputs::Frame& frame,
   rays_.build(frame.camera);
   const std::vector<Eigen::Vector3d> outline = groundOutline(detection, rays_);
   if (!outline.empty()) outline_.publish(outlineMessage(frame.header, outline));
-  markers_.publish(markersMessage(frame.header, detection, outline));
+  if (markers_.getNumSubscribers() == 0) return;
+  const visualization_msgs::MarkerArrayPtr markers =
+      markersMessage(frame.header, detection, outline);
+  addFurtherPlanes(frame.header, detection, furtherOutlines(detection, rays_), *markers);
+  markers_.publish(markers);
 }
 
 }  // namespace dominant_plane_detection

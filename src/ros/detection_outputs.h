@@ -41,6 +41,7 @@ class DetectionOutputs {
   void publishShapes(const DetectionInputs::Frame& frame, const Detection& detection);
 
   ros::Publisher plane_;
+  ros::Publisher planes_;
   ros::Publisher coefficients_;
   std::array<LabelledCloud, 4> clouds_{{{topics::kObstacles, Label::kObstacle, {}},
                                         {topics::kGround, Label::kGround, {}},
@@ -50,6 +51,7 @@ class DetectionOutputs {
   ros::Publisher markers_;
   image_transport::Publisher mask_;
   image_transport::Publisher labels_;
+  image_transport::Publisher plane_index_;
   RayTable rays_;
 };
 

@@ -16,9 +16,11 @@ constexpr const char* kPicture = "image";
 
 // Outputs, private to the node.
 constexpr const char* kPlane = "plane";
+constexpr const char* kPlanes = "planes";
 constexpr const char* kCoefficients = "coefficients";
 constexpr const char* kGroundMask = "ground_mask";
 constexpr const char* kLabels = "labels";
+constexpr const char* kPlaneIndex = "plane_index";
 constexpr const char* kOverlay = "overlay";
 constexpr const char* kObstacles = "obstacles";
 constexpr const char* kGround = "ground";

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "dominant_plane_detection/detection.h"
-#include "synthetic/renderer.h"
+#include "synthetic/drawn_scene.h"
 #include "synthetic/scene_random.h"
 
 namespace dominant_plane_detection {
@@ -11,15 +10,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
-constexpr double kMinFloor = 0.08;  // [-] share of the image
-
-void place(Scene& scene, TriangleMesh mesh, const Eigen::Vector3d& position, double yaw,
-           const Eigen::Vector3d& colour) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = position;
-  pose.rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
-  scene.add(std::move(mesh), pose).colour = colour;
-}
 
 void addRoom(Scene& scene, SceneRandom& random) {
   SceneObject& floor = scene.add(rectangleMesh(30.0, 30.0), Eigen::Isometry3d::Identity());
@@ -30,7 +20,8 @@ void addRoom(Scene& scene, SceneRandom& random) {
   for (const double side : {0.0, 0.5 * kPi, -0.5 * kPi}) {
     const double away = random.between(2.5, 6.0), direction = turn + side;
     place(scene, boxMesh({0.1, 16.0, 2.5}),
-          {away * std::cos(direction), away * std::sin(direction), 0.0}, direction, paint);
+          {away * std::cos(direction), away * std::sin(direction), 0.0}, direction)
+        .colour = paint;
   }
 }
 
@@ -45,8 +36,8 @@ void addThings(Scene& scene, SceneRandom& random) {
     const Eigen::Vector3d position(x, random.between(-0.6, 0.6) * x, 0.0);
     const double yaw = random.between(-kPi, kPi);
     const bool round = random.between(0.0, 1.0) < 0.4;
-    place(scene, round ? cylinderMesh(0.5 * size.x(), size.z()) : boxMesh(size), position, yaw,
-          colour);
+    place(scene, round ? cylinderMesh(0.5 * size.x(), size.z()) : boxMesh(size), position, yaw)
+        .colour = colour;
   }
 }
 
@@ -64,19 +55,10 @@ Scene draw(std::uint32_t seed, SceneRandom& random) {
     // Across the view, about where the optical axis meets the floor.
     const double x = std::clamp(camera.position.z() / std::tan(camera.pitch), 1.0, 3.0);
     place(scene, boxMesh({0.1, 8.0, random.between(0.08, 0.15)}), {x, 0.0, 0.0},
-          random.between(-0.2, 0.2), {0.5, 0.3, 0.2});
+          random.between(-0.2, 0.2))
+        .colour = {0.5, 0.3, 0.2};
   }
   return scene;
-}
-
-bool showsEnoughFloor(const Scene& scene) {
-  const Rendering rendering = Renderer(scene).render(scene.path.keys.front().pose(), {});
-  std::size_t floor = 0;
-  for (std::size_t i = 0; i < rendering.depth.size(); ++i) {
-    floor += rendering.labels[i] == static_cast<std::uint8_t>(Label::kGround) &&
-             rendering.depth[i] >= 0.5F && rendering.depth[i] <= 4.0F;
-  }
-  return static_cast<double>(floor) >= kMinFloor * static_cast<double>(rendering.depth.size());
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ namespace {
 
 constexpr const char* kDescription =
     "Finds the dominant plane in depth images and writes, into the output folder, planes.csv (one\n"
-    "row an image), masks/ (255 = ground) and overlays/ (the ground painted black).\n\n"
+    "row an image), masks/ (255 = ground) and overlays/ (the ground painted black); with\n"
+    "--set max_planes=8 also planes_more.csv (walls, tables, steps and ramps, a row each).\n\n"
     "The normal points from the plane to the camera and the distance is the camera's height, both\n"
     "in the optical frame (x right, y down, z forward): normal . r + distance = 0.\n\n"
     "Examples:\n"
@@ -98,7 +99,7 @@ void process(FrameSource& source, DominantPlaneDetector& detector, ResultWriter&
 int run(const Options& options) {
   DominantPlaneDetector detector(options.source.readParameters());
   const Inputs inputs = openInputs(options.source.inputs, options.source.readSourceOptions());
-  ResultWriter writer(options.output, options.labels);
+  ResultWriter writer(options.output, options.labels, detector.parameters().max_planes > 1);
   bool failed = false;
   {
     Report report(inputs.frames());

@@ -39,6 +39,20 @@ std::string reasonOf(const Frame& frame, const Detection& detection) {
   return detection.reason + (more.empty() ? "" : " " + more);
 }
 
+std::ofstream openTable(const std::string& file) {
+  std::ofstream table(file);
+  if (!table) throw std::runtime_error(file + ": could not be written");
+  return table;
+}
+
+/// @return a plane as four fields.
+std::string numbers(const Eigen::Vector3d& normal, double distance) {
+  std::ostringstream text;
+  text << std::setprecision(std::numeric_limits<float>::max_digits10) << normal.x() << ','
+       << normal.y() << ',' << normal.z() << ',' << distance;
+  return text.str();
+}
+
 /// @return 16 numbers, row-major, of [normal, distance]; empty while they are not known.
 std::string covarianceText(const Detection& detection) {
   if (detection.covariance(0, 0) < 0.0) return "";
@@ -50,27 +64,45 @@ std::string covarianceText(const Detection& detection) {
 
 }  // namespace
 
-ResultWriter::ResultWriter(const std::string& folder, bool labels)
+ResultWriter::ResultWriter(const std::string& folder, bool labels, bool further_planes)
     : folder_(folder), labels_(labels) {
   for (const char* name : {"/masks", "/overlays"}) makeFolder(folder + name);
   if (labels) makeFolder(folder + "/labels");
-  planes_.open(folder + "/planes.csv");
-  if (!planes_) throw std::runtime_error(folder + "/planes.csv: could not be written");
+  planes_ = openTable(folder + "/planes.csv");
   planes_ << "frame,state,normal_x,normal_y,normal_z,distance,mse,inliers,ms,reason,covariance\n";
+  if (!further_planes) return;
+  further_planes_ = openTable(folder + "/planes_more.csv");
+  further_planes_ << "frame,rank,normal_x,normal_y,normal_z,distance,inliers,kind\n";
 }
 
-void ResultWriter::write(const Frame& frame, const Detection& detection, double ms) {
+void ResultWriter::writePlane(const Frame& frame, const Detection& detection, double ms) {
   planes_ << frame.name << ',' << stateName(detection.state) << ',';
-  planes_ << std::setprecision(std::numeric_limits<float>::max_digits10);
   if (detection.found()) {
-    planes_ << detection.normal.x() << ',' << detection.normal.y() << ',' << detection.normal.z()
-            << ',' << detection.distance << ',' << detection.mean_square_error;
+    planes_ << numbers(detection.normal, detection.distance) << ','
+            << std::setprecision(std::numeric_limits<float>::max_digits10)
+            << detection.mean_square_error;
   } else {
     planes_ << ",,,,";
   }
   planes_ << ',' << detection.inliers << ',' << std::setprecision(4) << ms << ','
           << quoted(reasonOf(frame, detection)) << ',' << covarianceText(detection) << '\n';
   if (!planes_.flush()) throw std::runtime_error(folder_ + "/planes.csv: could not be written");
+}
+
+void ResultWriter::writeFurtherPlanes(const Frame& frame, const Detection& detection) {
+  int rank = 1;
+  for (const FurtherPlane& plane : detection.further_planes) {
+    further_planes_ << frame.name << ',' << ++rank << ',' << numbers(plane.normal, plane.distance)
+                    << ',' << plane.inliers << ',' << kindName(plane.kind) << '\n';
+  }
+  if (!further_planes_.flush()) {
+    throw std::runtime_error(folder_ + "/planes_more.csv: could not be written");
+  }
+}
+
+void ResultWriter::write(const Frame& frame, const Detection& detection, double ms) {
+  writePlane(frame, detection, ms);
+  if (further_planes_.is_open()) writeFurtherPlanes(frame, detection);
   writePng(folder_ + "/masks", frame.name, groundMask(detection));
   if (labels_) writePng(folder_ + "/labels", frame.name, labelImage(detection));
   cv::Mat picture = greyPicture(frame.depth);

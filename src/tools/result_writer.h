@@ -10,13 +10,15 @@
 
 namespace dominant_plane_detection {
 
-/// Writes planes.csv, masks/, overlays/ and, if asked, labels/ of a run, and keeps count for its
-/// summary.
+/// Writes planes.csv, masks/, overlays/ and, if asked, labels/ and planes_more.csv of a run, and
+/// keeps count for its summary.
 class ResultWriter {
  public:
   /// @param folder made where it is missing; files of an earlier run are overwritten.
+  /// @param labels whether labels/ is written.
+  /// @param further_planes whether planes_more.csv is written.
   /// @throw std::runtime_error where it cannot be written.
-  ResultWriter(const std::string& folder, bool labels);
+  ResultWriter(const std::string& folder, bool labels, bool further_planes);
 
   /// @param ms [ms] time of the detector alone.
   void write(const Frame& frame, const Detection& detection, double ms);
@@ -26,6 +28,9 @@ class ResultWriter {
   std::string summary() const;
 
  private:
+  void writePlane(const Frame& frame, const Detection& detection, double ms);
+  void writeFurtherPlanes(const Frame& frame, const Detection& detection);
+
   struct Outcome {
     std::size_t images = 0;
     std::string first_reason;
@@ -34,6 +39,7 @@ class ResultWriter {
   std::string folder_;
   bool labels_;  ///< whether labels/ is written
   std::ofstream planes_;
+  std::ofstream further_planes_;             ///< open if it is written
   std::map<std::string, Outcome> outcomes_;  ///< by the state's name
   std::vector<double> ms_;
 };

@@ -339,6 +339,51 @@ TEST_F(DetectionMessages, PlaneCoefficientsAndMask) {
   EXPECT_EQ(mask->data[400 * 640 + 330], 255);
 }
 
+TEST_F(DetectionMessages, PlanesAreTheDominantOneAndFurtherOnesByKind) {
+  Detection detection = detector_.detect(depth_.view(), camera_);
+  const auto alone = planeIndexMessage(header_, detection);
+  EXPECT_EQ(std::count(alone->data.begin(), alone->data.end(), 1),
+            static_cast<std::ptrdiff_t>(detection.inliers));
+  FurtherPlane table;
+  table.kind = PlaneKind::kTable;
+  table.normal = {0.0, -1.0, 0.0};
+  table.distance = 0.3;
+  table.covariance(3, 3) = 0.25;
+  table.mean_square_error = 0.01;
+  table.inliers = 1000;
+  detection.further_planes.push_back(table);
+  detection.plane_index.assign(640 * 480, 2);
+  const auto planes = planesMessage(header_, detection, 0.001);
+  EXPECT_EQ(planes->header.frame_id, "optical");
+  ASSERT_EQ(planes->planes.size(), 2U);
+  EXPECT_EQ(planes->kinds,
+            (std::vector<std::uint8_t>{DominantPlaneArray::FLOOR, DominantPlaneArray::TABLE}));
+  EXPECT_EQ(planes->planes[0].distance, detection.distance);
+  EXPECT_EQ(planes->planes[1].state, DominantPlane::FOUND);
+  EXPECT_EQ(planes->planes[1].header.stamp, header_.stamp);
+  EXPECT_EQ(planes->planes[1].normal.y, -1.0);
+  EXPECT_EQ(planes->planes[1].distance, 0.3);
+  EXPECT_EQ(planes->planes[1].covariance[15], 0.25);
+  EXPECT_EQ(planes->planes[1].mean_square_error, 0.01);
+  EXPECT_EQ(planes->planes[1].inliers, 1000U);
+  EXPECT_NEAR(static_cast<double>(planes->planes[1].inlier_share),
+              1000.0 / static_cast<double>(detection.valid_pixels), 1e-6);
+  EXPECT_EQ(planeIndexMessage(header_, detection)->data, detection.plane_index);
+
+  const auto outlines = furtherOutlines(detection, rays_);
+  ASSERT_EQ(outlines.size(), 1U);
+  ASSERT_GE(outlines[0].size(), 3U);
+  for (const Eigen::Vector3d& corner : outlines[0]) EXPECT_NEAR(corner.y(), 0.3, 1e-6);
+  visualization_msgs::MarkerArray markers;
+  addFurtherPlanes(header_, detection, outlines, markers);
+  ASSERT_EQ(markers.markers.size(), 1U);
+  EXPECT_EQ(markers.markers[0].points.size(), outlines[0].size() + 1) << "closed";
+  EXPECT_GT(markers.markers[0].lifetime.toSec(), 0.0);
+
+  const OwnedDepth<std::uint16_t> empty(640, 480);
+  EXPECT_TRUE(planesMessage(header_, detector_.detect(empty.view(), camera_), 0.0)->planes.empty());
+}
+
 TEST_F(DetectionMessages, NoPlaneIsNaNWithAReason) {
   const OwnedDepth<std::uint16_t> empty(640, 480);
   const auto plane = planeMessage(header_, detector_.detect(empty.view(), camera_), 0.001);

@@ -203,6 +203,20 @@ TEST_F(DetectPlanes, WhatCannotBeReadIsNamedAndTheRestProcessed) {
   expectTruth(rows.at("0000"));
 }
 
+/// The bin's scene with a wall behind it.
+TEST_F(DetectPlanes, FurtherPlanesHaveATableOfTheirOwn) {
+  ASSERT_EQ(detect(path("images/depth") + kCamera).status, 0);
+  EXPECT_FALSE(fs::exists(path("out/planes_more.csv")));
+  ASSERT_EQ(detect(path("images/depth") + kCamera + " --set max_planes=4").status, 0);
+  std::ifstream table(path("out/planes_more.csv"));
+  std::string line;
+  ASSERT_TRUE(std::getline(table, line));
+  EXPECT_EQ(line, "frame,rank,normal_x,normal_y,normal_z,distance,inliers,kind");
+  ASSERT_TRUE(std::getline(table, line));
+  EXPECT_EQ(line.rfind("0000,2,", 0), 0U) << line;
+  EXPECT_NE(line.find(",wall"), std::string::npos) << line;
+}
+
 TEST_F(DetectPlanes, AnImageWithoutAPlaneHasItsRowAndABlackMask) {
   cv::imwrite(path("empty.png"), cv::Mat(480, 640, CV_16UC1, cv::Scalar(0)));
   const Outcome outcome = detect(path("empty.png") + kCamera);

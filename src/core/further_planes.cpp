@@ -1,0 +1,79 @@
+#include "core/further_planes.h"
+
+#include <algorithm>
+
+#include "core/tile_seed.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+/// [#] tiles from seed to seed: of eleven by eleven, a fortieth of an image, several are seeds.
+constexpr int kSeedStep = 4;
+/// [#] of all tiles: no further region is begun once so many joined, which bounds the work.
+constexpr std::size_t kMostJoined = 8;
+constexpr double kEpsilon = 1.5;  // [-] see the class
+
+}  // namespace
+
+const std::vector<TilePlane>& FurtherPlanes::find(const TileMoments& tiles, double tile_angle,
+                                                  const std::vector<std::uint8_t>& dominant,
+                                                  const Limits& wanted) {
+  GrowthThresholds thresholds = wanted.thresholds;
+  thresholds.epsilon.offset *= kEpsilon;
+  thresholds.epsilon.sigmas *= kEpsilon;
+  limits_.set(tiles, thresholds);
+  judge_.start(tiles, limits_);
+  growth_.start(tiles, tile_angle);
+  ground_tiles_.start(tiles, tile_angle);
+  region_.tiles.clear();
+  region_.member.assign(tiles.count.size(), 0);
+  tried_ = taken_ = dominant;
+  joined_ = 0;
+  planes_.clear();
+  for (int row = kSeedStep / 2; row < tiles.rows; row += kSeedStep) {
+    for (int column = kSeedStep / 2; column < tiles.columns; column += kSeedStep) {
+      const auto tile = static_cast<std::size_t>(row * tiles.columns + column);
+      if (joined_ > kMostJoined * tiles.size()) break;
+      if (!tried_[tile] && tiles.count[tile] >= kMinReadings) tryRegion(tile, wanted);
+    }
+  }
+  std::stable_sort(planes_.begin(), planes_.end(),
+                   [](const TilePlane& a, const TilePlane& b) { return a.points > b.points; });
+  if (planes_.size() > wanted.most) planes_.resize(wanted.most);
+  return planes_;
+}
+
+void FurtherPlanes::tryRegion(std::size_t seed, const Limits& wanted) {
+  const std::optional<TileSeed> start = fitSeed(judge_, taken_, seed);
+  if (!start) return;
+  const TileRegion& grown = growth_.grow(judge_, *start, taken_);
+  joined_ += grown.tiles.size();
+  for (const std::size_t tile : grown.tiles) tried_[tile] = 1;
+  if (grown.points < wanted.min_points) return;
+  const std::optional<SurfacePlane> surface = findSurface(judge_, grown);
+  if (!surface || !collectSurface(*surface, grown.tiles, wanted)) return;
+  const std::optional<SurfacePlane> fit = fitPlane(judge_, region_, surface->plane, surface->level);
+  if (!fit || region_.points < wanted.min_points) return;
+  region_.plane = fit->plane;
+  if (!SurfaceCheck::isFlat(judge_, region_)) return;
+  planes_.push_back({region_.plane, region_.points, ground_tiles_.ground()});
+  for (const std::size_t tile : region_.tiles) tried_[tile] = taken_[tile] = 1;
+}
+
+/// The region becomes the tiles of what was grown that lie on the plane, and what hangs together
+/// with them on it.
+bool FurtherPlanes::collectSurface(const SurfacePlane& surface,
+                                   const std::vector<std::size_t>& grown, const Limits& wanted) {
+  region_.clear();
+  region_.plane = surface.plane;
+  judge_.setPlane(surface.plane, surface.plane.distance * surface.plane.normal, surface.level);
+  judge_.judgeAll();
+  for (const std::size_t tile : grown) {
+    if (judge_.onPlane(tile)) region_.add(tile, judge_.tiles());
+  }
+  if (region_.tiles.empty()) return false;
+  ground_tiles_.collect(judge_, region_, wanted.pieces, taken_);
+  return true;
+}
+
+}  // namespace dominant_plane_detection

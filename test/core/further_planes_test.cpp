@@ -1,0 +1,199 @@
+// Further planes, their kinds and ramps that are ground, on scenes of exact planes.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/detector_fixture.h"
+#include "support/tile_scene.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+
+/// A floor, and a plane in a part of the image.
+class FloorAndMore : public testing::Test {
+ protected:
+  FloorAndMore() : depth_(planeDepth(camera_, kUp, kHeight)) {
+    parameters_.max_planes = 4;
+    parameters_.range_min = 0.2;
+    parameters_.range_max = 6.0;
+  }
+
+  /// Paints what is nearer than the floor or takes its place.
+  /// @param normal [-] upwards or towards the camera. @param point [m] on the plane.
+  void paint(const Eigen::Vector3d& normal, const Eigen::Vector3d& point, int left, int top,
+             int right, int bottom) {
+    paintPlane(depth_, camera_, HessePlane::through(point, -normal),
+               [&](int u, int v) { return u >= left && u < right && v >= top && v < bottom; });
+  }
+  /// @return [m] where a pixel meets the floor, and so much higher.
+  Eigen::Vector3d over(int u, int v, double height) const {
+    const Eigen::Vector2d ray = camera_.ray({u, v});
+    const Eigen::Vector3d direction(ray.x(), ray.y(), 1.0);
+    return (height - kHeight) / kUp.dot(direction) * direction;
+  }
+  const Detection& detect() {
+    detector_ = DominantPlaneDetector(parameters_);
+    const Detection& detection = detector_.detect(depth_.view(), camera_);
+    EXPECT_TRUE(detection.found());
+    EXPECT_NEAR(detection.distance, kHeight, 0.003);
+    return detection;
+  }
+  /// A plane that rises away from the camera, its foot along a row of the image.
+  void paintRamp(double slope) {
+    const Eigen::Vector3d foot = over(320, 300, 0.0);
+    const Eigen::Vector3d across = kUp.cross(Eigen::Vector3d::UnitZ()).normalized();
+    const Eigen::Vector3d normal = Eigen::AngleAxisd(-slope, across) * kUp;
+    paintPlane(depth_, camera_, HessePlane::through(foot, -normal), [&](int u, int v) {
+      const Eigen::Vector2d ray = camera_.ray({u, v});
+      const Eigen::Vector3d direction(ray.x(), ray.y(), 1.0);
+      const double floor = -kHeight / kUp.dot(direction);
+      const double ramp = normal.dot(foot) / normal.dot(direction);
+      return u >= 150 && u < 500 && v >= 100 && v < 400 && ramp > 0.0 && ramp < floor;
+    });
+  }
+
+  const CameraModel camera_ = testCamera();
+  OwnedDepth<float> depth_;
+  Parameters parameters_;
+  DominantPlaneDetector detector_;
+};
+
+TEST_F(FloorAndMore, ATableIsLevelAndHigh) {
+  paint(kUp, over(320, 300, 0.5), 200, 200, 420, 400);
+  const Detection& detection = detect();
+  ASSERT_EQ(detection.further_planes.size(), 1U);
+  const FurtherPlane& table = detection.further_planes.front();
+  EXPECT_EQ(table.kind, PlaneKind::kTable);
+  EXPECT_NEAR(table.distance, kHeight - 0.5, 0.001);
+  EXPECT_LT(angle(table.normal, kUp), 0.001);
+  EXPECT_NEAR(static_cast<double>(table.inliers), 220.0 * 200.0, 100.0);
+  EXPECT_LT(table.mean_square_error, 1e-6);
+  EXPECT_GT(table.covariance(3, 3), 0.0);
+  ASSERT_EQ(detection.plane_index.size(), 640U * 480U);
+  EXPECT_EQ(detection.plane_index[300 * 640 + 320], 2);
+  EXPECT_EQ(detection.plane_index[450 * 640 + 320], 1);
+  EXPECT_EQ(std::count(detection.plane_index.begin(), detection.plane_index.end(), 2),
+            static_cast<std::ptrdiff_t>(table.inliers));
+  EXPECT_EQ(std::count(detection.plane_index.begin(), detection.plane_index.end(), 1),
+            static_cast<std::ptrdiff_t>(detection.inliers));
+}
+
+TEST_F(FloorAndMore, AStepIsLevelAndLow) {
+  paint(kUp, over(320, 300, 0.15), 200, 200, 420, 400);
+  ASSERT_EQ(detect().further_planes.size(), 1U);
+  EXPECT_EQ(detect().further_planes.front().kind, PlaneKind::kStep);
+  depth_ = planeDepth(camera_, kUp, kHeight);
+  paint(kUp, over(320, 300, -0.15), 200, 200, 420, 400);
+  ASSERT_EQ(detect().further_planes.size(), 1U);
+  EXPECT_EQ(detect().further_planes.front().kind, PlaneKind::kStep) << "down";
+}
+
+TEST_F(FloorAndMore, AWallIsSteep) {
+  const Eigen::Vector3d towards =
+      (-Eigen::Vector3d::UnitZ() + kUp.z() * kUp).normalized();  // horizontal
+  paint(towards, over(320, 200, 0.0), 0, 0, 640, 200);
+  const Detection& detection = detect();
+  ASSERT_EQ(detection.further_planes.size(), 1U);
+  const FurtherPlane& wall = detection.further_planes.front();
+  EXPECT_EQ(wall.kind, PlaneKind::kWall);
+  EXPECT_LT(angle(wall.normal, towards), 0.001);
+  EXPECT_GT(wall.distance, 0.0);
+}
+
+TEST_F(FloorAndMore, ARampRisesFromTheGround) {
+  for (const double slope : {3.0, 8.0, 20.0}) {
+    depth_ = planeDepth(camera_, kUp, kHeight);
+    paintRamp(slope * kDegree);
+    const Detection& detection = detect();
+    ASSERT_EQ(detection.further_planes.size(), 1U) << slope;
+    EXPECT_EQ(detection.further_planes.front().kind, PlaneKind::kRamp) << slope;
+    EXPECT_NEAR(angle(detection.further_planes.front().normal, kUp), slope * kDegree, 0.003);
+  }
+}
+
+TEST_F(FloorAndMore, ARampThatIsWantedIsGround) {
+  paintRamp(8.0 * kDegree);
+  const auto on_ramp = [](const Detection& detection) { return detection.label(320, 200); };
+  EXPECT_NE(on_ramp(detect()), Label::kGround);
+  for (const int planes : {1, 4}) {
+    parameters_.max_planes = planes;
+    parameters_.max_ramp = 10.0 * kDegree;
+    const Detection& detection = detect();
+    EXPECT_EQ(on_ramp(detection), Label::kGround) << planes;
+    EXPECT_EQ(detection.further_planes.size(), static_cast<std::size_t>(planes > 1 ? 1 : 0));
+    EXPECT_EQ(detection.plane_index.empty(), planes == 1);
+    parameters_.max_ramp = 7.0 * kDegree;
+    EXPECT_NE(on_ramp(detect()), Label::kGround) << "steeper than wanted";
+  }
+}
+
+/// The same slope on a table: nothing leads there.
+TEST_F(FloorAndMore, ARampThatDoesNotJoinIsNoGround) {
+  parameters_.max_ramp = 20.0 * kDegree;
+  const Eigen::Vector3d across = kUp.cross(Eigen::Vector3d::UnitZ()).normalized();
+  paint(Eigen::AngleAxisd(8.0 * kDegree, across) * kUp, over(320, 300, 0.4), 200, 200, 420, 400);
+  const Detection& detection = detect();
+  ASSERT_EQ(detection.further_planes.size(), 1U);
+  EXPECT_EQ(detection.further_planes.front().kind, PlaneKind::kRamp);
+  EXPECT_EQ(detection.label(320, 300), Label::kObstacle);
+}
+
+TEST_F(FloorAndMore, TheLargestAreTold) {
+  paint(kUp, over(320, 300, 0.5), 20, 200, 240, 400);
+  paint(kUp, over(320, 300, 0.3), 280, 220, 420, 400);
+  paint(kUp, over(320, 300, 0.15), 460, 250, 600, 400);
+  const Detection& detection = detect();
+  ASSERT_EQ(detection.further_planes.size(), 3U);
+  EXPECT_NEAR(detection.further_planes[0].distance, kHeight - 0.5, 0.002);
+  EXPECT_NEAR(detection.further_planes[1].distance, kHeight - 0.3, 0.002);
+  EXPECT_NEAR(detection.further_planes[2].distance, kHeight - 0.15, 0.002);
+  parameters_.max_planes = 2;
+  const Detection& fewer = detect();
+  ASSERT_EQ(fewer.further_planes.size(), 1U);
+  EXPECT_NEAR(fewer.further_planes[0].distance, kHeight - 0.5, 0.002);
+  EXPECT_EQ(*std::max_element(fewer.plane_index.begin(), fewer.plane_index.end()), 2);
+}
+
+TEST_F(FloorAndMore, ThereAreNoneUnlessAskedFor) {
+  paint(kUp, over(320, 300, 0.5), 200, 200, 420, 400);
+  parameters_.max_planes = 1;
+  const Detection& detection = detect();
+  EXPECT_TRUE(detection.further_planes.empty());
+  EXPECT_TRUE(detection.plane_index.empty());
+}
+
+/// What is smaller than half of min_share is none; and nothing is left over from image to image.
+TEST_F(FloorAndMore, SmallOnesAreNone) {
+  paint(kUp, over(320, 300, 0.5), 300, 300, 370, 370);  // 1.6 %
+  EXPECT_TRUE(detect().further_planes.empty());
+  EXPECT_EQ(detect().plane_index[330 * 640 + 330], 0);
+  parameters_.min_share = 0.02;
+  ASSERT_EQ(detect().further_planes.size(), 1U);
+  const OwnedDepth<float> empty(640, 480);
+  const Detection& nothing = detector_.detect(empty.view(), camera_);
+  EXPECT_TRUE(nothing.further_planes.empty());
+  EXPECT_TRUE(nothing.plane_index.empty());
+}
+
+TEST_F(FloorAndMore, TheSameByEitherAlgorithm) {
+  paint(kUp, over(320, 300, 0.5), 200, 200, 420, 400);
+  parameters_.algorithm = Algorithm::kKdtree;
+  const Detection& detection = detect();
+  ASSERT_EQ(detection.further_planes.size(), 1U);
+  EXPECT_EQ(detection.further_planes.front().kind, PlaneKind::kTable);
+}
+
+TEST(PlaneKinds, HaveNames) {
+  EXPECT_STREQ(kindName(PlaneKind::kFloor), "floor");
+  EXPECT_STREQ(kindName(PlaneKind::kRamp), "ramp");
+  EXPECT_STREQ(kindName(PlaneKind::kStep), "step");
+  EXPECT_STREQ(kindName(PlaneKind::kTable), "table");
+  EXPECT_STREQ(kindName(PlaneKind::kWall), "wall");
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection
