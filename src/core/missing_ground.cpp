@@ -24,7 +24,8 @@ constexpr int kMinMissing = kBlockSize * kBlockSize / 2;
 constexpr double kBaseline = 0.1;
 /// [#] blocks over which depth is smeared at an edge.
 constexpr int kEdge = 1;
-/// [#] blocks from an empty one over which nothing may be known at a rim.
+/// [#] blocks beside an empty one in which a rim's ground, or the obstacle that hides it, may be:
+/// next to edges depth is smeared or unknown.
 constexpr int kRim = 3;
 /// [-] of the rim that has to be ground: more than the one long side of a stripe along the image's
 /// border, where some sensors never see anything, and less than three sides of a square.
@@ -132,13 +133,13 @@ void MissingGround::leaveOutShadows(const ImageInput& input) {
 
 /// @param begin, end columns of a run of empty blocks, in the direction of `step` from one side.
 void MissingGround::leaveOutShadow(const ImageInput& input, int row, int begin, int end, int step) {
-  const int beside = begin - step;
-  if (!inside(beside, row)) return;
   float nearest = std::numeric_limits<float>::infinity();  // [m]
-  visitBlock(input.depth, beside, row, [&](int u, int v) {
-    const float z = metresAt(input.depth, u, v);
-    if (!isMissing(z)) nearest = std::min(nearest, z);
-  });
+  for (int i = 1, beside = begin - step; i <= kRim && inside(beside, row); ++i, beside -= step) {
+    visitBlock(input.depth, beside, row, [&](int u, int v) {
+      const float z = metresAt(input.depth, u, v);
+      if (!isMissing(z)) nearest = std::min(nearest, z);
+    });
+  }
   const double parallax = input.rays.camera().fx * kBaseline *
                           (1.0 / static_cast<double>(nearest) -
                            1.0 / static_cast<double>(plane_depth_[indexOf(begin, row)]));
