@@ -4,6 +4,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "calibration/depth_calibration_file.h"
+#include "ros/correction_parameter.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -11,8 +12,8 @@ namespace {
 /// What is read once, at the start.
 const std::set<std::string> kStartParameters = {
     "device_id",           "depth_frame_id",     "rgb_frame_id",      "depth_camera_info_url",
-    "rgb_camera_info_url", "ir_camera_info_url", "depth_calibration", "depth_ir_offset_x",
-    "depth_ir_offset_y"};
+    "rgb_camera_info_url", "ir_camera_info_url", "depth_calibration", "correction",
+    "depth_ir_offset_x",   "depth_ir_offset_y"};
 
 DriverNames readNames(const ros::NodeHandle& node) {
   DriverNames names;
@@ -64,7 +65,8 @@ void OpenNI2DriverNodelet::onTimer() {
 void OpenNI2DriverNodelet::start() {
   const ros::NodeHandle& node = getNodeHandle();
   const ros::NodeHandle& private_node = getPrivateNodeHandle();
-  corrector_ = std::make_unique<DepthCorrector>(readCalibration(private_node));
+  corrector_ =
+      std::make_unique<DepthCorrector>(readCalibration(private_node), readCorrection(private_node));
   setParameters(
       loadParameters<DriverParameters, OpenNI2DriverConfig>(private_node, kStartParameters));
   outputs_.advertise(node, readNames(private_node), [this] { followListeners(); });

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "ros/correction_parameter.h"
+
 namespace dominant_plane_detection {
 namespace {
 
@@ -29,7 +31,8 @@ void PlaneDetectionNodelet::start() {
   const ros::NodeHandle& node = getNodeHandle();
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   detector_ = DominantPlaneDetector(loadParameters<Parameters, PlaneDetectionConfig>(
-      private_node, {"input", "rectified", "image_transport"}));
+      private_node, {"input", "rectified", "image_transport", "correction"}));
+  correction_ = readCorrection(private_node);
   inputs_ = std::make_unique<DetectionInputs>(
       node, private_node, readInputKind(private_node), private_node.param("rectified", false),
       [this](const DetectionInputs::Frame& frame) { onFrame(frame); });
@@ -66,8 +69,10 @@ void PlaneDetectionNodelet::trySubscriptions() {
   overlay_->followListeners();
 }
 
-void PlaneDetectionNodelet::onFrame(const DetectionInputs::Frame& frame) {
+void PlaneDetectionNodelet::onFrame(const DetectionInputs::Frame& read) {
   try {
+    DetectionInputs::Frame frame = read;
+    if (correction_) frame.depth = correction_->correct(read.depth);
     const auto start = std::chrono::steady_clock::now();
     const Detection& detection = detector_.detect(frame.depth, frame.camera);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;

@@ -4,8 +4,10 @@
 #include <dynamic_reconfigure/server.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "dominant_plane_detection/depth_correction.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "nodelets/periodic_nodelet.h"
 #include "ros/detection_diagnostics.h"
@@ -32,9 +34,10 @@ class PlaneDetectionNodelet : public PeriodicNodelet {
   void onTimer() override;
   void followListeners();
   void trySubscriptions();
-  void onFrame(const DetectionInputs::Frame& frame);
+  void onFrame(const DetectionInputs::Frame& read);
   void onReconfigure(PlaneDetectionConfig& config);
 
+  std::optional<DepthCorrection> correction_;
   DominantPlaneDetector detector_;
   DetectionOutputs outputs_;
   std::unique_ptr<OverlayOutput> overlay_;

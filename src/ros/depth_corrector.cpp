@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace dominant_plane_detection {
 namespace {
@@ -26,7 +27,9 @@ void correctRow(const std::uint16_t* from, std::uint32_t width, float scale, flo
 
 }  // namespace
 
-DepthCorrector::DepthCorrector(const DepthCalibration& calibration) : calibration_(calibration) {
+DepthCorrector::DepthCorrector(const DepthCalibration& calibration,
+                               const std::optional<DepthCorrection>& pixels)
+    : calibration_(calibration), pixels_(pixels) {
   set(0.0, 1.0);
 }
 
@@ -43,7 +46,7 @@ sensor_msgs::ImagePtr DepthCorrector::correct(const sensor_msgs::ImagePtr& depth
     const std::lock_guard<std::mutex> lock(mutex_);
     correction = correction_;
   }
-  if (!raw && correction->offset == 0.0 && correction->scale == 1.0) return depth;
+  if (!raw && !pixels_ && correction->offset == 0.0 && correction->scale == 1.0) return depth;
   const sensor_msgs::Image& from = *depth;
   const sensor_msgs::ImagePtr to = likeness(from);
   for (std::uint32_t v = 0; v < from.height; ++v) {
@@ -54,7 +57,24 @@ sensor_msgs::ImagePtr DepthCorrector::correct(const sensor_msgs::ImagePtr& depth
                  static_cast<float>(correction->offset), rowOf(*to, v));
     }
   }
+  if (pixels_) correctPixels(*to);
   return to;
+}
+
+void DepthCorrector::correctPixels(sensor_msgs::Image& image) {
+  constexpr float kMost = std::numeric_limits<std::uint16_t>::max();
+  const std::lock_guard<std::mutex> lock(pixels_mutex_);
+  const DepthView corrected =
+      pixels_->correct({rowOf(std::as_const(image), 0), static_cast<int>(image.width),
+                        static_cast<int>(image.height), 0.001F, image.step});
+  for (std::uint32_t v = 0; v < image.height; ++v) {
+    const float* from = corrected.row<float>(static_cast<int>(v));
+    std::uint16_t* to = rowOf(image, v);
+    for (std::uint32_t u = 0; u < image.width; ++u) {
+      const float z = std::nearbyint(1000.0F * from[u]);
+      to[u] = 0.0F < z && z <= kMost ? static_cast<std::uint16_t>(z) : 0;
+    }
+  }
 }
 
 /// @return an image of the same size and kind, whose pixels have yet to be written.

@@ -44,26 +44,12 @@ void print(const CalibrateMount::Response& r) {
 int measureRecordings(const Options& options) {
   DominantPlaneDetector detector(options.source.readParameters());
   const Inputs inputs = openInputs(options.source.inputs, options.source.readSourceOptions());
-  int status = 0;
-  const auto complain = [&](const std::string& error) {
-    std::cerr << "calibrate_mount: " << error << '\n';
-    status = 1;
-  };
-  for (const std::string& error : inputs.errors) complain(error);
   MountEstimate estimate;
-  for (const auto& source : inputs.sources) {
-    for (bool more = true; more;) {
-      try {
-        const auto frame = source->next();
-        more = frame.has_value();
-        if (more) estimate.add(detector.detect(frame->depth, frame->camera), frame->frame_id);
-      } catch (const UnreadableFrame& error) {
-        complain(error.what());
-      }
-    }
-  }
+  const bool all = forEachFrame(inputs, "calibrate_mount", [&](const Frame& frame) {
+    estimate.add(detector.detect(frame.depth, frame.camera), frame.frame_id);
+  });
   print(toResponse(estimate.mount()));
-  return status;
+  return all ? 0 : 1;
 }
 
 int askNode(const Options& options) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dominant_plane_detection/camera_model.h"
+#include "dominant_plane_detection/depth_correction.h"
 #include "dominant_plane_detection/depth_image.h"
 
 namespace dominant_plane_detection {
@@ -45,6 +46,7 @@ struct SourceOptions {
   double units_per_metre = 1000.0;    ///< of 16-bit images
   std::string topic;                  ///< depth topic of bags; empty: the only one
   bool raw_disparity = false;         ///< images are raw disparity, not depth
+  std::optional<DepthCorrection> correction;
 };
 
 /// 16-bit PNG files.

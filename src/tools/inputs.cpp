@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace dominant_plane_detection {
 namespace {
@@ -48,6 +49,24 @@ std::vector<std::string> frameNames(const std::vector<std::string>& files) {
   return names;
 }
 
+/// The images of another source, corrected.
+class CorrectedSource : public FrameSource {
+ public:
+  CorrectedSource(std::unique_ptr<FrameSource> source, const DepthCorrection& correction)
+      : source_(std::move(source)), correction_(correction) {}
+
+  std::size_t size() const override { return source_->size(); }
+  std::optional<Frame> next() override {
+    std::optional<Frame> frame = source_->next();
+    if (frame) frame->depth = correction_.correct(frame->depth);
+    return frame;
+  }
+
+ private:
+  std::unique_ptr<FrameSource> source_;
+  DepthCorrection correction_;
+};
+
 }  // namespace
 
 std::size_t Inputs::frames() const {
@@ -82,6 +101,11 @@ Inputs openInputs(const std::vector<std::string>& paths, const SourceOptions& op
   }
   if (!png_files.empty()) {
     inputs.sources.push_back(openPngFiles(png_files, frameNames(png_files), options));
+  }
+  if (options.correction) {
+    for (auto& source : inputs.sources) {
+      source = std::make_unique<CorrectedSource>(std::move(source), *options.correction);
+    }
   }
   return inputs;
 }

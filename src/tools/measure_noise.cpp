@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <iostream>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -56,25 +54,14 @@ int run(const SourceArguments& arguments) {
   DominantPlaneDetector detector(arguments.readParameters());
   const Inputs inputs = openInputs(arguments.inputs, arguments.readSourceOptions());
   FloorNoise noise;
-  bool failed = !inputs.errors.empty();
-  for (const std::string& error : inputs.errors) std::cerr << "measure_noise: " << error << '\n';
-  for (const auto& source : inputs.sources) {
-    while (true) {
-      try {
-        const std::optional<Frame> frame = source->next();
-        if (!frame) break;
-        noise.add(frame->depth, frame->camera, detector.detect(frame->depth, frame->camera));
-      } catch (const UnreadableFrame& error) {
-        std::cerr << "measure_noise: " << error.what() << '\n';
-        failed = true;
-      }
-    }
-  }
+  const bool all = forEachFrame(inputs, "measure_noise", [&](const Frame& frame) {
+    noise.add(frame.depth, frame.camera, detector.detect(frame.depth, frame.camera));
+  });
   if (noise.images() == 0) throw std::runtime_error("No image shows a ground plane.");
   const std::vector<FloorNoiseFigures> figures = noise.figures();
   printTable(noise.images(), figures);
   printProfile(noise.images(), figures);
-  return failed ? 1 : 0;
+  return all ? 0 : 1;
 }
 
 }  // namespace

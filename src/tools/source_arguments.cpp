@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "calibration/depth_correction_file.h"
 #include "sensor_profiles.h"
 #include "yaml_files.h"
 
@@ -27,6 +28,9 @@ void declareSource(CLI::App& app, SourceArguments& arguments, bool required) {
                  "profile of the depth camera's errors: generic (default), kinect_v1,\n"
                  "realsense_d4xx, xtion, or a YAML file")
       ->type_name("NAME|FILE");
+  app.add_option("--correction", arguments.correction,
+                 "takes away the camera's fixed error; from calibrate_floor")
+      ->type_name("FILE");
   app.add_option("--params", arguments.params, "detection parameters, the nodelet's YAML")
       ->type_name("FILE");
   app.add_option("--set", arguments.settings, "one detection parameter; may be repeated")
@@ -67,6 +71,7 @@ SourceOptions SourceArguments::readSourceOptions() const {
   SourceOptions source;
   source.units_per_metre = depth_scale;
   source.topic = topic;
+  if (!correction.empty()) source.correction = loadDepthCorrection(correction);
   if (!camera_info.empty()) {
     source.camera = loadCamera(camera_info);
   } else if (!camera.empty()) {

@@ -17,6 +17,7 @@ struct SourceArguments {
   std::string camera_info;
   double depth_scale = 1000.0;
   std::string sensor;
+  std::string correction;
   std::string params;
   std::vector<std::string> settings;
   std::vector<double> range;

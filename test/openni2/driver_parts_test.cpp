@@ -133,6 +133,14 @@ TEST_F(DepthCorrectorTest, WithoutACorrectionNothingIsCopied) {
   EXPECT_EQ(corrector.correct(image_, false), image_);
 }
 
+/// 1 / z' = 1 / z - 0.01 / m, with and without a scale before it.
+TEST_F(DepthCorrectorTest, TakesAwayWhatIsFixedToThePixels) {
+  DepthCorrector corrector(DepthCalibration::kinect(), DepthCorrection({1, 1, {0.01}}));
+  expect(corrector.correct(image_, false), {0, 1010, 2041, 0, 4, 10});
+  corrector.set(0.0, 2.0);
+  expect(corrector.correct(image_, false), {0, 2041, 4167, 0, 8, 20});
+}
+
 TEST_F(DepthCorrectorTest, RawDisparityBecomesMillimetres) {
   DepthCorrector corrector;
   corrector.set(0.01, 1.1);

@@ -10,6 +10,18 @@
 namespace dominant_plane_detection {
 namespace {
 
+/// 1 / z' = 1 / z - 0.05 / m for all pixels makes another plane of the floor.
+TEST_F(Nodelet, DepthIsCorrectedByAFile) {
+  Listener<DominantPlane> planes(node_, "/corrected_detection/plane");
+  ASSERT_TRUE(waitForSubscription());
+  ASSERT_TRUE(spinUntil([&] { return planes.connected(); }));
+  const auto plane = detect(planes, image_);
+  ASSERT_EQ(plane->state, DominantPlane::FOUND) << plane->reason;
+  const Eigen::Vector3d inverse = kUp / kHeight + 0.05 * Eigen::Vector3d::UnitZ();
+  EXPECT_NEAR(plane->distance, 1.0 / inverse.norm(), 0.002);
+  EXPECT_NEAR(plane->normal.z, inverse.normalized().z(), 0.002);
+}
+
 class Reconfigure : public Nodelet {
  protected:
   /// @return the configuration that the node has afterwards.

@@ -1,0 +1,50 @@
+#include "calibration/depth_correction_file.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <fstream>
+#include <stdexcept>
+
+namespace dominant_plane_detection {
+
+DepthCorrection loadDepthCorrection(const std::string& file) {
+  try {
+    const YAML::Node root = YAML::LoadFile(file);
+    for (const char* name : {"columns", "rows", "inverse_depth"}) {
+      if (!root.IsMap() || !root[name]) {
+        throw std::runtime_error(std::string(name) + ": expected a value, got nothing");
+      }
+    }
+    return DepthCorrection({root["columns"].as<int>(), root["rows"].as<int>(),
+                            root["inverse_depth"].as<std::vector<double>>()});
+  } catch (const YAML::BadFile&) {
+    throw std::runtime_error(file + ": expected a depth correction, got no file that can be read");
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
+}
+
+void saveDepthCorrection(const std::string& file, const FloorCorrection::Result& learned) {
+  YAML::Emitter out;
+  out.SetDoublePrecision(6);
+  out << YAML::Comment(
+      "1 / z' = 1 / z - c, [c] = 1/m, bilinear between the middles of columns x rows cells that\n"
+      "cover the image, row by row. The part of c that is affine in the image turns planes into\n"
+      "planes: no floor shows it, it is zero here. So is c where too few images showed floor.");
+  out << YAML::Newline << YAML::BeginMap;
+  out << YAML::Key << "columns" << YAML::Value << learned.grid.columns;
+  out << YAML::Key << "rows" << YAML::Value << learned.grid.rows;
+  out << YAML::Key << "inverse_depth" << YAML::Value << YAML::Flow << learned.grid.inverse_depth;
+  out << YAML::Key << "images" << YAML::Value << learned.images;
+  out << YAML::Newline
+      << YAML::Comment("[1/m] rms of floor cells over their plane on images not learned from");
+  out << YAML::Newline << YAML::Key << "before" << YAML::Value << learned.before;
+  out << YAML::Key << "after" << YAML::Value << learned.after;
+  out << YAML::EndMap;
+  std::ofstream stream(file);
+  stream << out.c_str() << '\n';
+  stream.close();
+  if (!stream) throw std::runtime_error(file + ": cannot be written");
+}
+
+}  // namespace dominant_plane_detection
