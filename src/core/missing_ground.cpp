@@ -22,8 +22,6 @@ constexpr int kMinMissing = kBlockSize * kBlockSize / 2;
 /// [m] between the two eyes of a sensor at most: a Kinect's and an Xtion's are 75 mm apart, a
 /// RealSense's 50 to 95 mm (manufacturers' data sheets).
 constexpr double kBaseline = 0.1;
-/// [#] blocks over which depth is smeared at an edge.
-constexpr int kEdge = 1;
 /// [#] blocks beside an empty one in which a rim's ground, or the obstacle that hides it, may be:
 /// next to edges depth is smeared or unknown.
 constexpr int kRim = 3;
@@ -145,7 +143,7 @@ void MissingGround::leaveOutShadow(const ImageInput& input, int row, int begin, 
                            1.0 / static_cast<double>(plane_depth_[indexOf(begin, row)]));
   // Less is no obstacle's edge, but the error of the ground.
   if (!(parallax > kBlockSize)) return;
-  int width = static_cast<int>(std::ceil(parallax / kBlockSize)) + kEdge;
+  int width = static_cast<int>(std::ceil(parallax / kBlockSize));
   for (int column = begin; column != end && width > 0; column += step, --width) {
     state_[indexOf(column, row)] = kRead;
   }

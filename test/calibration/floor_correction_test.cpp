@@ -134,7 +134,26 @@ TEST_F(FixedError, IsLearned) {
       left.inverse_depth[cell] -= sum / 1024.0;
     }
   }
+  RecordProperty("left", std::to_string(notAffine(left) / notAffine(truth)));
   EXPECT_LT(notAffine(left), 0.3 * notAffine(truth));
+}
+
+TEST_F(FixedError, IsZeroWhereNoFloorWasSeen) {
+  FloorCorrection correction{NoiseModel()};
+  for (int i = 0; i < 12; ++i) {
+    OwnedDepth<float> depth = sense(upOf(0.6, 0.02 * i - 0.1), 0.8 + 0.02 * i, 1.0, 0.0, 1);
+    for (int v = 0; v < 480; ++v) {
+      for (int u = 0; u < 160; ++u) depth.at(u, v) = 0.0F;
+    }
+    correction.add(depth.view(), camera_, detector_.detect(depth.view(), camera_));
+  }
+  const DepthCorrection::Grid grid = correction.learn().grid;
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < 5; ++column) {
+      ASSERT_EQ(grid.inverse_depth[static_cast<std::size_t>(row * 20 + column)], 0.0) << column;
+    }
+  }
+  EXPECT_NE(grid.inverse_depth[10 * 20 + 10], 0.0);
 }
 
 /// What turns planes into planes is not learned: on average over the views that it was learned

@@ -101,7 +101,29 @@ TEST_F(FloorAndMore, AWallIsSteep) {
   const FurtherPlane& wall = detection.further_planes.front();
   EXPECT_EQ(wall.kind, PlaneKind::kWall);
   EXPECT_LT(angle(wall.normal, towards), 0.001);
+  EXPECT_EQ(std::count(detection.plane_index.begin(), detection.plane_index.end(), 1),
+            static_cast<std::ptrdiff_t>(detection.inliers))
+      << "at the foot, too";
   EXPECT_GT(wall.distance, 0.0);
+}
+
+/// Floor behind a wall-to-wall box that may not join.
+TEST_F(FloorAndMore, FloorIsAsHighAsTheGround) {
+  depth_ = cutFloor(camera_);
+  parameters_.join_pieces = false;
+  const Detection& detection = detect();
+  ASSERT_GE(detection.further_planes.size(), 1U);
+  EXPECT_EQ(detection.further_planes.front().kind, PlaneKind::kFloor);
+  EXPECT_NEAR(detection.further_planes.front().distance, kHeight, 0.001);
+}
+
+/// What is not joined to the ground is level, though it is tilted by what an error may be.
+TEST_F(FloorAndMore, ATiltedPlatformIsAStep) {
+  const Eigen::Vector3d across = kUp.cross(Eigen::Vector3d::UnitZ()).normalized();
+  paint(Eigen::AngleAxisd(-4.0 * kDegree, across) * kUp, over(320, 280, 0.12), 200, 180, 440, 420);
+  const Detection& detection = detect();
+  ASSERT_EQ(detection.further_planes.size(), 1U);
+  EXPECT_EQ(detection.further_planes.front().kind, PlaneKind::kStep);
 }
 
 TEST_F(FloorAndMore, ARampRisesFromTheGround) {
@@ -143,9 +165,9 @@ TEST_F(FloorAndMore, ARampThatDoesNotJoinIsNoGround) {
 }
 
 TEST_F(FloorAndMore, TheLargestAreTold) {
-  paint(kUp, over(320, 300, 0.5), 20, 200, 240, 400);
+  paint(kUp, over(320, 300, 0.15), 460, 200, 600, 350);
   paint(kUp, over(320, 300, 0.3), 280, 220, 420, 400);
-  paint(kUp, over(320, 300, 0.15), 460, 250, 600, 400);
+  paint(kUp, over(320, 300, 0.5), 20, 250, 240, 450);
   const Detection& detection = detect();
   ASSERT_EQ(detection.further_planes.size(), 3U);
   EXPECT_NEAR(detection.further_planes[0].distance, kHeight - 0.5, 0.002);

@@ -181,6 +181,50 @@ TEST_F(HoledFloor, IsNotLookedForUnlessWanted) {
   EXPECT_EQ(missing_, 0);
 }
 
+/// Blocks that a hole only touches belong to it.
+TEST_F(HoledFloor, ToTheLastPixel) {
+  fill(301, 299, 346, 341, 0.0F);
+  const Detection& detection = detect();
+  EXPECT_EQ(missing_, 45 * 42);
+  EXPECT_EQ(detection.label(301, 299), Label::kMissingGround);
+  EXPECT_EQ(detection.label(345, 340), Label::kMissingGround);
+}
+
+/// Far away a single block is as large as the smallest piece.
+TEST_F(HoledFloor, SpecksFarAwayAreNot) {
+  height_ = 0.3;
+  depth_ = planeDepth(camera_, kUp, height_);
+  int v = 0;
+  while (onFloor(320, v).z() > 3.9) ++v;
+  v += 4 - v % 4;
+  fill(320, v, 324, v + 4, 0.0F);
+  detect();
+  EXPECT_EQ(missing_, 0);
+  fill(320, v, 336, v + 12, 0.0F);
+  detect();
+  EXPECT_EQ(missing_, 16 * 12);
+}
+
+/// Beside a hole depth may be smeared or unknown.
+TEST_F(HoledFloor, GroundMayBeginSomeBlocksAway) {
+  fill(300, 292, 348, 348, 0.2F);  // too near to be trusted
+  fill(300, 300, 348, 340, 0.0F);
+  const Detection& detection = detect();
+  EXPECT_EQ(missing_, 48 * 40);
+  EXPECT_EQ(detection.label(320, 295), Label::kUnknown);
+}
+
+/// Of a hole that is cut by the range only the part within is told.
+TEST_F(HoledFloor, OnlyWithinTheRange) {
+  Parameters parameters;
+  parameters.range_max = onFloor(320, 300).z();
+  detector_ = DominantPlaneDetector(parameters);
+  fill(280, 240, 360, 380, 0.0F);
+  const Detection& detection = detect();
+  EXPECT_EQ(detection.label(320, 340), Label::kMissingGround);
+  EXPECT_EQ(detection.label(320, 280), Label::kUnknown);
+}
+
 /// A size that is no multiple of a block's.
 TEST_F(HoledFloor, OddSizes) {
   camera_ = testCamera(641, 479);
