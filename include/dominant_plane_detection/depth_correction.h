@@ -10,8 +10,9 @@ namespace dominant_plane_detection {
 /// the pixel, with c bilinear between the middles of image cells. For triangulating cameras c is an
 /// error of disparity, and the error of depth grows with z^2.
 ///
-/// `FloorCorrection` learns it; what turns planes into planes, the part of c that is affine in the
-/// image, cannot be learned from floors and is not in it.
+/// What turns planes into planes, a part of c that is affine in the image, cannot be learned from
+/// floors (`calibrate_floor`): it is such that on average the planes that c was learned from do not
+/// move.
 class DepthCorrection {
  public:
   struct Grid {
@@ -25,8 +26,9 @@ class DepthCorrection {
   explicit DepthCorrection(const Grid& grid);
 
   /// @param depth of any size: the cells cover the image.
-  /// @return the corrected image in metres, without a reading where there was none; in memory of
-  /// the correction that is valid until the next call.
+  /// @return the corrected image in metres, in memory of the correction that is valid until the
+  /// next call. Without a reading where there was none; infinite where c says that 1 / z' <= 0. An
+  /// image without pixels comes back as it is.
   DepthView correct(const DepthView& depth);
 
   const Grid& grid() const { return grid_; }

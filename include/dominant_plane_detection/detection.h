@@ -37,10 +37,10 @@ enum class Label : std::uint8_t {
 /// of DominantPlaneArray.msg.
 enum class PlaneKind : std::uint8_t {
   kFloor = 0,  ///< as high as the ground
-  kRamp,       ///< 5 to 45 degrees steep, or less and joined to the ground
+  kRamp,       ///< 5 to 45 degrees steep, or less and rising from the ground's height
   kStep,       ///< level, up to 0.35 m higher or lower
-  kTable,      ///< level, more than that
-  kWall,       ///< steeper than 45 degrees
+  kTable,      ///< level, more than that; a ceiling, too
+  kWall,       ///< 45 degrees and steeper
 };
 
 /// @return the name in planes_more.csv, for example "ramp".
@@ -63,10 +63,10 @@ struct Effort {
 struct FurtherPlane {
   PlaneKind kind = PlaneKind::kFloor;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  double distance = 0.0;                                 ///< [m]
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< the first element -1: not known
-  double mean_square_error = 0.0;                        ///< [m^2] of the inliers
-  std::size_t inliers = 0;                               ///< [px]
+  double distance = 0.0;                                         ///< [m]
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Constant(-1.0);  ///< first element -1: not known
+  double mean_square_error = 0.0;                                ///< [m^2] of the inliers
+  std::size_t inliers = 0;                                       ///< [px]
 };
 
 /// The dominant plane of one depth image, in the depth optical frame.
@@ -79,7 +79,8 @@ struct Detection {
   /// [-] unit normal from the plane to the camera ("up" for a floor): normal . r + distance = 0.
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   double distance = std::numeric_limits<double>::quiet_NaN();  ///< [m] camera's height, >= 0
-  /// Of [normal, distance]; the first element is -1 while it is not known.
+  /// Of [normal, distance], of rank 3: along the normal itself it is 0, and it has no inverse. The
+  /// first element is -1 while it is not known.
   Eigen::Matrix4d covariance = unknownCovariance();
   double mean_square_error = std::numeric_limits<double>::quiet_NaN();  ///< [m^2] Eq. 8, inliers
   /// [px] labelled ground; those of ramps (`max_ramp`) are not among them.
@@ -90,10 +91,10 @@ struct Detection {
   int image_width = 0;               ///< [px]
   int image_height = 0;              ///< [px]
   std::vector<std::uint8_t> labels;  ///< `Label` of each pixel, row-major
-  /// Largest first, at most `max_planes` less the dominant one.
+  /// Most inliers first, at most `max_planes` less the dominant one.
   std::vector<FurtherPlane> further_planes;
   /// The number of each pixel's plane, row-major: 0 none, 1 the dominant one, 2 the first of the
-  /// further ones; empty unless further planes are looked for.
+  /// further ones; empty unless further planes or ramps are looked for.
   std::vector<std::uint8_t> plane_index;
 
   /// @param point [m] in the optical frame.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -25,9 +26,11 @@ struct Between {
 template <typename Pixel>
 void correctRow(const Pixel* from, float unit, const float* table, int width, float* to) {
   constexpr float kFarthest = 1e6F;  // [m] infinity, too far to be measured, stays what it is
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (int u = 0; u < width; ++u) {
     const float z = unit * static_cast<float>(from[u]);
-    const float corrected = z / (1.0F - table[u] * z);
+    const float share = 1.0F - table[u] * z;  // what is as far as 1 / c is infinitely far
+    const float corrected = share > 0.0F ? z / share : kInfinity;
     to[u] = z < kFarthest ? corrected : z;
   }
 }
@@ -52,8 +55,6 @@ DepthCorrection::DepthCorrection(const Grid& grid) : grid_(grid) {
 
 void DepthCorrection::resize(int width, int height) {
   if (width == width_ && height == height_) return;
-  width_ = width;
-  height_ = height;
   const auto size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   pixels_.resize(size);
   table_.resize(size);
@@ -72,9 +73,13 @@ void DepthCorrection::resize(int width, int height) {
           static_cast<float>((1.0 - y.share) * above + y.share * below);
     }
   }
+  // Last: had memory not sufficed, the table would not be that of the size.
+  width_ = width;
+  height_ = height;
 }
 
 DepthView DepthCorrection::correct(const DepthView& depth) {
+  if (depth.data == nullptr || depth.width <= 0 || depth.height <= 0) return depth;
   resize(depth.width, depth.height);
   for (int v = 0; v < depth.height; ++v) {
     const auto begin = static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.width);

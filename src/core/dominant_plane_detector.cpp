@@ -186,10 +186,6 @@ class DominantPlaneDetector::Implementation {
             {p.min_obstacle_height, p.min_obstacle_width, p.false_alarm_rate, p.local_error}};
   }
 
-  ErrorSizes errorSizes() const {
-    return {parameters_.noise, parameters_.smooth_error, parameters_.wide_error};
-  }
-
   const Detection& refuse(State state, const Sentence& sentence) {
     detection_.state = state;
     detection_.reason.assign(sentence.data());
@@ -227,8 +223,8 @@ class DominantPlaneDetector::Implementation {
       missing_ground_.mark(input, plane, tiles_, parameters_.min_obstacle_width, detection_.labels);
     }
     if (parameters_.covariance) {
-      detection_.covariance =
-          covariance_.estimate(tiles_, grid_.ground(), plane, errorSizes(), input.depth.width);
+      detection_.covariance = covariance_.estimate(tiles_, grid_.ground(), plane,
+                                                   errorSizes(parameters_), input.depth.width);
     }
     return detection_;
   }

@@ -1,17 +1,24 @@
 #include "core/further_planes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/tile_seed.h"
 
 namespace dominant_plane_detection {
 namespace {
 
-/// [#] tiles from seed to seed: of eleven by eleven, a fortieth of an image, several are seeds.
-constexpr int kSeedStep = 4;
+/// [#] tiles from seed to seed at most.
+constexpr int kMostStep = 4;
 /// [#] of all tiles: no further region is begun once so many joined, which bounds the work.
 constexpr std::size_t kMostJoined = 8;
 constexpr double kEpsilon = 1.5;  // [-] see the class
+
+/// @return [#] tiles from seed to seed, half the side of the smallest plane.
+int seedStep(std::size_t min_points) {
+  const double tiles = static_cast<double>(min_points) / (kTileSize * kTileSize);
+  return std::clamp(static_cast<int>(0.5 * std::sqrt(tiles)), 1, kMostStep);
+}
 
 }  // namespace
 
@@ -30,16 +37,16 @@ const std::vector<TilePlane>& FurtherPlanes::find(const TileMoments& tiles, doub
   tried_ = taken_ = dominant;
   joined_ = 0;
   planes_.clear();
-  for (int row = kSeedStep / 2; row < tiles.rows; row += kSeedStep) {
-    for (int column = kSeedStep / 2; column < tiles.columns; column += kSeedStep) {
+  const int step = seedStep(wanted.min_points);
+  for (int row = step / 2; row < tiles.rows; row += step) {
+    for (int column = step / 2; column < tiles.columns; column += step) {
       const auto tile = static_cast<std::size_t>(row * tiles.columns + column);
-      if (joined_ > kMostJoined * tiles.size()) break;
-      if (!tried_[tile] && tiles.count[tile] >= kMinReadings) tryRegion(tile, wanted);
+      const bool may_begin = !tried_[tile] && tiles.count[tile] >= kMinReadings;
+      if (may_begin && joined_ <= kMostJoined * tiles.size()) tryRegion(tile, wanted);
     }
   }
   std::stable_sort(planes_.begin(), planes_.end(),
                    [](const TilePlane& a, const TilePlane& b) { return a.points > b.points; });
-  if (planes_.size() > wanted.most) planes_.resize(wanted.most);
   return planes_;
 }
 
@@ -52,6 +59,7 @@ void FurtherPlanes::tryRegion(std::size_t seed, const Limits& wanted) {
   if (grown.points < wanted.min_points) return;
   const std::optional<SurfacePlane> surface = findSurface(judge_, grown);
   if (!surface || !collectSurface(*surface, grown.tiles, wanted)) return;
+  for (const std::size_t tile : ground_tiles_.pieces()) region_.add(tile, judge_.tiles());
   const std::optional<SurfacePlane> fit = fitPlane(judge_, region_, surface->plane, surface->level);
   if (!fit || region_.points < wanted.min_points) return;
   region_.plane = fit->plane;

@@ -24,13 +24,12 @@ struct TilePlane {
 /// is flat. epsilon is half as large again: all of the depth's error is along the normal of a wall
 /// that faces the camera, but only a part of it along a floor's.
 ///
-/// Seeds are every fourth tile of every fourth row, so that a plane of the smallest size has
-/// several; a surface that was found is no part of another one.
+/// Seeds are so close to each other that a square of the smallest size has four, at most every
+/// fourth tile of every fourth row; a surface that was found is no part of another one.
 class FurtherPlanes {
  public:
   /// What is looked for.
   struct Limits {
-    std::size_t most;        ///< [#] of planes, the largest ones
     std::size_t min_points;  ///< [px] in tiles that lie on the plane: without the surface's rim
     GrowthThresholds thresholds;  ///< of the dominant plane
     GroundTiles::Limits pieces;
@@ -38,7 +37,7 @@ class FurtherPlanes {
 
   /// @param tile_angle see `TileGrowth`.
   /// @param dominant 1 for the tiles of the dominant plane, padded like the moments.
-  /// @return largest first, valid until the next call.
+  /// @return largest first, by the points of their tiles; valid until the next call.
   const std::vector<TilePlane>& find(const TileMoments& tiles, double tile_angle,
                                      const std::vector<std::uint8_t>& dominant,
                                      const Limits& wanted);

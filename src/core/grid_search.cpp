@@ -7,12 +7,6 @@
 #include "core/label_rule.h"
 
 namespace dominant_plane_detection {
-namespace {
-
-/// @return [rad] that a tile's side subtends in the middle of the image.
-double tileAngle(const CameraModel& camera) { return kTileSize / std::max(camera.fx, camera.fy); }
-
-}  // namespace
 
 void GridSearch::run(const Image& image, const Parameters& parameters, PlaneSelection& selection,
                      Effort& effort) {

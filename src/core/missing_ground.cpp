@@ -22,6 +22,8 @@ constexpr int kMinMissing = kBlockSize * kBlockSize / 2;
 /// [m] between the two eyes of a sensor at most: a Kinect's and an Xtion's are 75 mm apart, a
 /// RealSense's 50 to 95 mm (manufacturers' data sheets).
 constexpr double kBaseline = 0.1;
+/// [m] What is nearer is no reading: no depth camera has such.
+constexpr float kNearestReading = 0.05F;
 /// [#] blocks beside an empty one in which a rim's ground, or the obstacle that hides it, may be:
 /// next to edges depth is smeared or unknown.
 constexpr int kRim = 3;
@@ -68,6 +70,12 @@ float MissingGround::Sight::slope(int column, int row) const {
   return normal.dot(input.rays.ray(u, v));
 }
 
+bool MissingGround::Sight::isWithin(int u, int v) const {
+  const float slope = normal.dot(input.rays.ray(u, v));
+  const float plane_depth = distance / slope;
+  return slope > 0.0F && plane_depth >= input.range.min && plane_depth <= input.range.max;
+}
+
 void MissingGround::mark(const ImageInput& input, const HessePlane& plane, const TileMoments& tiles,
                          double min_width, std::vector<std::uint8_t>& labels) {
   const Sight sight{input, plane.normal.cast<float>(), static_cast<float>(plane.distance)};
@@ -76,6 +84,8 @@ void MissingGround::mark(const ImageInput& input, const HessePlane& plane, const
   state_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kRead);
   plane_depth_.resize(state_.size());
   found_.clear();
+  found_.reserve(state_.size());
+  blocks_.reserve(state_.size());
   if (input.depth.type == DepthView::Type::kUint16) {
     findEmpty<std::uint16_t>(sight, tiles);
   } else {
@@ -87,7 +97,7 @@ void MissingGround::mark(const ImageInput& input, const HessePlane& plane, const
     const Piece piece = grow(start, sight, labels);
     if (blocks_.size() >= kMinBlocks && piece.area >= min_width * min_width &&
         static_cast<double>(piece.ground) >= kGroundShare * static_cast<double>(piece.rim)) {
-      label(input, labels);
+      label(sight, labels);
     }
   }
 }
@@ -97,6 +107,7 @@ void MissingGround::findEmpty(const Sight& sight, const TileMoments& tiles) {
   constexpr int kSide = kTileSize / kBlockSize;  // [#] blocks
   constexpr float kReadings = kTileSize * kTileSize - kMinMissing;
   const DepthView& depth = sight.input.depth;
+  // Blocks that are partly outside the image are left out.
   const int whole_columns = depth.width / kBlockSize, whole_rows = depth.height / kBlockSize;
   for (int row = 0; row < whole_rows; ++row) {
     const float* counts =
@@ -108,7 +119,6 @@ void MissingGround::findEmpty(const Sight& sight, const TileMoments& tiles) {
       const float plane_depth = sight.distance / slope;
       const ReadingRange& range = sight.input.range;
       if (!(slope > 0.0F && plane_depth >= range.min && plane_depth <= range.max)) continue;
-      // What is partly outside the image is left out.
       if (countMissing<Pixel>(depth, column, row) < kMinMissing) continue;
       const std::size_t block = indexOf(column, row);
       state_[block] = kEmpty;
@@ -123,7 +133,8 @@ void MissingGround::leaveOutShadows(const ImageInput& input) {
     const int row = static_cast<int>(found_[i]) / columns_;
     const int begin = static_cast<int>(found_[i]) % columns_;
     int end = begin;
-    while (i < found_.size() && found_[i] == indexOf(end, row)) ++i, ++end;
+    // The next row follows without a gap.
+    while (i < found_.size() && end < columns_ && found_[i] == indexOf(end, row)) ++i, ++end;
     leaveOutShadow(input, row, begin, end, 1);
     leaveOutShadow(input, row, end - 1, begin - 1, -1);
   }
@@ -135,7 +146,7 @@ void MissingGround::leaveOutShadow(const ImageInput& input, int row, int begin, 
   for (int i = 1, beside = begin - step; i <= kRim && inside(beside, row); ++i, beside -= step) {
     visitBlock(input.depth, beside, row, [&](int u, int v) {
       const float z = metresAt(input.depth, u, v);
-      if (!isMissing(z)) nearest = std::min(nearest, z);
+      if (z > kNearestReading) nearest = std::min(nearest, z);
     });
   }
   const double parallax = input.rays.camera().fx * kBaseline *
@@ -143,7 +154,8 @@ void MissingGround::leaveOutShadow(const ImageInput& input, int row, int begin, 
                            1.0 / static_cast<double>(plane_depth_[indexOf(begin, row)]));
   // Less is no obstacle's edge, but the error of the ground.
   if (!(parallax > kBlockSize)) return;
-  int width = static_cast<int>(std::ceil(parallax / kBlockSize));
+  auto width =
+      static_cast<int>(std::min(std::ceil(parallax / kBlockSize), static_cast<double>(columns_)));
   for (int column = begin; column != end && width > 0; column += step, --width) {
     state_[indexOf(column, row)] = kRead;
   }
@@ -197,16 +209,19 @@ MissingGround::Piece MissingGround::grow(std::size_t start, const Sight& sight,
 }
 
 /// Labels the missing readings of the piece, and those in the blocks about it that it only touches.
-void MissingGround::label(const ImageInput& input, std::vector<std::uint8_t>& labels) const {
+void MissingGround::label(const Sight& sight, std::vector<std::uint8_t>& labels) const {
+  const DepthView& depth = sight.input.depth;
   for (const std::size_t block : blocks_) {
     const int middle_column = static_cast<int>(block) % columns_;
     const int middle_row = static_cast<int>(block) / columns_;
     for (int row = std::max(middle_row - 1, 0); row <= std::min(middle_row + 1, rows_ - 1); ++row) {
       for (int column = std::max(middle_column - 1, 0);
            column <= std::min(middle_column + 1, columns_ - 1); ++column) {
-        visitBlock(input.depth, column, row, [&](int u, int v) {
-          std::uint8_t& label = labels[static_cast<std::size_t>(v * input.depth.width + u)];
-          if (label == kUnknownLabel && isMissingAt(input.depth, u, v)) label = kMissingLabel;
+        visitBlock(depth, column, row, [&](int u, int v) {
+          std::uint8_t& label = labels[static_cast<std::size_t>(v * depth.width + u)];
+          if (label == kUnknownLabel && isMissingAt(depth, u, v) && sight.isWithin(u, v)) {
+            label = kMissingLabel;
+          }
         });
       }
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -42,6 +43,9 @@ class MissingGround {
 
     /// @return [-] positive where the ray of a block's middle meets the plane.
     float slope(int column, int row) const;
+    /// @return whether a pixel's ray meets the plane within the range; not where the ray is
+    /// unknown.
+    bool isWithin(int u, int v) const;
   };
 
   template <typename Pixel>
@@ -51,7 +55,7 @@ class MissingGround {
   Piece grow(std::size_t start, const Sight& sight, const std::vector<std::uint8_t>& labels);
   bool leadsToGround(int column, int row, Step step, const ImageInput& input,
                      const std::vector<std::uint8_t>& labels) const;
-  void label(const ImageInput& input, std::vector<std::uint8_t>& labels) const;
+  void label(const Sight& sight, std::vector<std::uint8_t>& labels) const;
 
   bool inside(int column, int row) const {
     return column >= 0 && row >= 0 && column < columns_ && row < rows_;

@@ -21,22 +21,26 @@ constexpr double kFarthest = 3.0;
 /// Smallest reciprocal condition of the normal equations that still tell a plane.
 constexpr double kMinCondition = 1e-9;
 
-/// @return [-] between the means of two cells a distance apart along an axis, each over its side.
-double shortCorrelation(double distance) {
-  if (distance == 0.0) return 1.0;
-  const double falls = std::exp(-kSide / kShort);
-  const double variance = 2.0 * (kSide / kShort - 1.0 + falls);
-  return (1.0 - falls) * (1.0 - falls) * std::exp((kSide - distance) / kShort) / variance;
+/// @param cells [#] apart along an axis.
+/// @param side [px] of one.
+/// @return [-] between the means of two cells.
+double shortCorrelation(int cells, double side) {
+  if (cells == 0) return 1.0;
+  const double falls = std::exp(-side / kShort);
+  const double variance = 2.0 * (side / kShort - 1.0 + falls);
+  return (1.0 - falls) * (1.0 - falls) * std::exp((1 - cells) * side / kShort) / variance;
 }
-double wideCorrelation(double distance) {
+
+double wideCorrelation(int cells, double side) {
+  const double distance = cells * side;
   return std::exp(-0.5 * distance * distance / (kWide * kWide));
 }
 
 template <typename Correlation>
-Eigen::MatrixXd correlationMatrix(int count, Correlation correlation) {
+Eigen::MatrixXd correlationMatrix(int count, double side, Correlation correlation) {
   Eigen::MatrixXd matrix(count, count);
   for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < count; ++j) matrix(i, j) = correlation(kSide * std::abs(i - j));
+    for (int j = 0; j < count; ++j) matrix(i, j) = correlation(std::abs(i - j), side);
   }
   return matrix;
 }
@@ -47,15 +51,19 @@ void PlaneCovariance::resize(const TileMoments& tiles, int image_width) {
   side_ = std::max(1, static_cast<int>(std::lround(kSide * image_width / 640.0 / kTileSize)));
   const int columns = covering(tiles.columns, side_), rows = covering(tiles.rows, side_);
   cells_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), Cell());
-  if (columns == columns_ && rows == rows_) return;
-  columns_ = columns;
-  rows_ = rows;
-  short_ = {correlationMatrix(columns, shortCorrelation),
-            correlationMatrix(rows, shortCorrelation)};
-  wide_ = {correlationMatrix(columns, wideCorrelation), correlationMatrix(rows, wideCorrelation)};
+  if (columns == columns_ && rows == rows_ && image_width == image_width_) return;
+  const double side = side_ * kTileSize * 640.0 / image_width;  // [px] of an image 640 px wide
+  short_ = {correlationMatrix(columns, side, shortCorrelation),
+            correlationMatrix(rows, side, shortCorrelation)};
+  wide_ = {correlationMatrix(columns, side, wideCorrelation),
+           correlationMatrix(rows, side, wideCorrelation)};
+  neighbours_ = shortCorrelation(1, side);
   values_.resize(rows, columns);
   along_rows_.resize(rows, columns);
   near_.resize(rows, columns);
+  columns_ = columns;
+  rows_ = rows;
+  image_width_ = image_width;
 }
 
 /// @return the weighted moments of all points, of [x, y, z, 1].
@@ -101,7 +109,7 @@ double PlaneCovariance::shortWaves() const {
     }
   }
   if (weights == 0.0) return 1.0;  // a plane within one cell: as the profile says
-  return squares / weights / 2.0 / (1.0 - shortCorrelation(kSide));
+  return squares / weights / 2.0 / (1.0 - neighbours_);
 }
 
 /// @return J^T W E W J for the waves of a size.
@@ -158,6 +166,8 @@ Eigen::Matrix4d PlaneCovariance::estimate(const TileMoments& tiles,
   // that a and b lead from (p, q) to it as they are.
   const Eigen::Matrix3d of_plane = normal_equations.solve(half.transpose());
   const Eigen::Matrix4d covariance = axes * of_plane * axes.transpose();
+  // Seen edge-on, a plane's errors are infinite.
+  if (!covariance.allFinite()) return Detection::unknownCovariance();
   return 0.5 * (covariance + covariance.transpose());  // symmetric to the last digit
 }
 

@@ -6,7 +6,7 @@
 
 #include "core/hesse_plane.h"
 #include "core/tile_moments.h"
-#include "dominant_plane_detection/noise_model.h"
+#include "dominant_plane_detection/parameters.h"
 
 namespace dominant_plane_detection {
 
@@ -16,6 +16,10 @@ struct ErrorSizes {
   NoiseModel smooth;    ///< [m] rms of large parts of a floor over its plane
   WideErrorModel wide;  ///< [m] rms of what large parts share with the plane
 };
+
+inline ErrorSizes errorSizes(const Parameters& parameters) {
+  return {parameters.noise, parameters.smooth_error, parameters.wide_error};
+}
 
 /// How sure a fitted plane is, under errors that neighbouring readings share.
 ///
@@ -32,7 +36,7 @@ class PlaneCovariance {
   /// by more than three sigma(z) do not count.
   /// @param image_width [px]
   /// @return of [normal, distance] as `Detection` has them, of rank 3; unknown if the tiles do not
-  /// determine a plane.
+  /// determine a plane, or the camera is in it.
   Eigen::Matrix4d estimate(const TileMoments& tiles, const std::vector<std::uint8_t>& ground,
                            const HessePlane& plane, const ErrorSizes& sizes, int image_width);
 
@@ -57,10 +61,12 @@ class PlaneCovariance {
   double shortWaves() const;
   Eigen::Matrix3d spread(double Cell::*size, const Correlations& correlations);
 
-  int side_ = 0;  ///< [#] tiles along a cell
+  int image_width_ = 0;  ///< [px]
+  int side_ = 0;         ///< [#] tiles along a cell
   int columns_ = 0, rows_ = 0;
   std::vector<Cell> cells_;  ///< row-major
   Correlations short_, wide_;
+  double neighbours_ = 0.0;  ///< [-] correlation of adjacent cells by short waves
   Eigen::MatrixXd values_, along_rows_, near_;  ///< what is kept for its memory
 };
 

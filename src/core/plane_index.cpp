@@ -8,7 +8,7 @@
 namespace dominant_plane_detection {
 namespace {
 
-/// The same in single precision.
+/// A plane and the band about it, in single precision.
 struct Band {
   Eigen::Vector3f normal;
   float distance, constant, quadratic;
@@ -21,7 +21,8 @@ void numberRow(const ImageInput& input, const Band& band, int v, int left, int r
     const float z = metresAt(input.depth, u, v);
     if (!(z >= input.range.min && z <= input.range.max) || index[u] != 0) continue;
     const float height = z * band.normal.dot(input.rays.ray(u, v)) - band.distance;
-    if (std::abs(height) > band.constant + band.quadratic * z * z) continue;
+    // Where the lens cannot be inverted the height is not a number.
+    if (!(std::abs(height) <= band.constant + band.quadratic * z * z)) continue;
     index[u] = number;
     ++share.points;
     share.mean_square_error += static_cast<double>(height * height);

@@ -25,12 +25,14 @@ class PlaneInventory {
     GroundTiles::Limits pieces;
   };
 
-  /// Does nothing but to clear them where neither further planes nor ramps are asked for.
-  /// @param detection with the dominant plane's labels; its further planes and their index are
-  /// written, and labels of ramps become ground.
+  /// Does nothing where neither further planes nor ramps are asked for.
+  /// @param detection with the dominant plane's labels, and no further planes yet; these and their
+  /// index are written, and labels of ramps become ground.
   void tell(const Image& image, const Parameters& parameters, Detection& detection);
 
  private:
+  void collect(const Image& image, const Parameters& parameters, Detection& detection);
+  static void rank(std::size_t most, Detection& detection);
   FurtherPlane describe(const Image& image, const Parameters& parameters, const TilePlane& plane);
 
   FurtherPlanes search_;

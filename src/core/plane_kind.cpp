@@ -9,10 +9,12 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180.0;
 constexpr double kSteepest = 45.0 * kDegree;  // [rad] of a ramp
 constexpr double kSteep = 5.0 * kDegree;      // [rad] more than errors tilt a level plane
 constexpr double kLevel = 1.5 * kDegree;      // [rad] less is level, whatever its heights
+constexpr double kOff = 3.0;                  // [-] in sigma(z)
 constexpr double kRise = 0.5;  // [-] of a ramp's mean height, from its lowest tile to its highest
 constexpr double kHighestStep = 0.35;  // [m]
 constexpr int kContacts = 3;           // [#] pairs of tiles
@@ -35,7 +37,7 @@ Heights heightsOver(const HessePlane& ground, const TilePlane& plane, const Tile
     if (!plane.tiles[tile] || !(tiles.count[tile] > 0.0F)) continue;
     const Eigen::Vector3d centre = tiles.centre(tile);
     // Tiles of the rim show something else as well.
-    if (std::abs(plane.plane.signedDistance(centre)) > noise.sigma(centre.z())) continue;
+    if (std::abs(plane.plane.signedDistance(centre)) > kOff * noise.sigma(centre.z())) continue;
     const double height = -ground.signedDistance(centre);
     const auto points = static_cast<double>(tiles.count[tile]);
     heights.lowest = std::min(heights.lowest, height);
@@ -55,10 +57,12 @@ double slopeOf(const HessePlane& ground, const HessePlane& plane) {
 
 PlaneKind kindOf(const HessePlane& ground, const TilePlane& plane, const TileMoments& tiles,
                  const DepthThreshold& band, const NoiseModel& noise) {
-  const double slope = slopeOf(ground, plane.plane);
+  const double towards = slopeOf(ground, plane.plane);
+  const double slope = std::min(towards, kPi - towards);  // a ceiling is level, too
   if (slope >= kSteepest) return PlaneKind::kWall;
   if (slope >= kSteep) return PlaneKind::kRamp;
   const Heights heights = heightsOver(ground, plane, tiles, noise);
+  if (heights.points == 0.0) return PlaneKind::kFloor;  // thresholds without any noise
   const double ground_band = band.at(heights.meanDepth(), noise);
   if (slope >= kLevel && heights.nearest() <= ground_band &&
       heights.highest - heights.lowest >= kRise * std::abs(heights.mean())) {

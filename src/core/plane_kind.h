@@ -9,10 +9,10 @@ namespace dominant_plane_detection {
 
 /// Tells what a plane is beside the ground.
 ///
-/// Its slope against the ground decides: a wall from 45 degrees on, a ramp from 5. What is less
-/// steep is a ramp where it begins as low as the ground and rises by half of its mean height at
-/// least; otherwise it is level: floor where it is as high as the ground, a step up to 0.35 m up or
-/// down, two of a stair's, and else a table.
+/// Its slope against the ground decides: a wall from 45 degrees on, a ramp from 5; a ceiling is
+/// level, as what is seen from above. What is less steep is a ramp where it begins as low as the
+/// ground and rises by half of its mean height at least; otherwise it is level: floor where it is
+/// as high as the ground, a step up to 0.35 m up or down, two of a stair's, and else a table.
 /// @param ground the dominant plane.
 /// @param band [m] |height| of the ground's own points at a depth.
 PlaneKind kindOf(const HessePlane& ground, const TilePlane& plane, const TileMoments& tiles,

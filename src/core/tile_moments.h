@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -13,6 +14,11 @@ namespace dominant_plane_detection {
 /// [px] side of the square tiles: eight floats are one AVX register, and 8 x 8 readings average the
 /// noise of one by eight while a tile at 4 m is still only 6 cm wide.
 constexpr int kTileSize = 8;
+
+/// @return [rad] that a tile's side subtends in the middle of the image.
+inline double tileAngle(const CameraModel& camera) {
+  return kTileSize / std::max(camera.fx, camera.fy);
+}
 
 /// Moments of the points in each image tile, row-major, one flat array per number, filled up with
 /// zeros to whole vectors and one more, so that a row can be read in whole vectors as well. Tiles

@@ -48,7 +48,7 @@ std::vector<Eigen::Vector3d> outlineOf(const Eigen::Vector3d& normal, double dis
   for (const Eigen::Vector2i& pixel : rowEnds(pixels)) {
     const Eigen::Vector3d ray = rays.ray(pixel.x(), pixel.y()).cast<double>();
     const double fall = -normal.dot(ray);
-    if (fall < 1e-6) continue;  // along the plane, never meets it
+    if (!(fall >= 1e-6)) continue;  // along the plane, or an unknown ray: never meets it
     const Eigen::Vector3d point = distance / fall * ray - origin;
     flat.emplace_back(static_cast<float>(point.dot(basis.first)),
                       static_cast<float>(point.dot(basis.second)));
@@ -69,10 +69,12 @@ std::vector<Eigen::Vector3d> outlineOf(const Eigen::Vector3d& normal, double dis
 
 std::vector<Eigen::Vector3d> groundOutline(const Detection& detection, const RayTable& rays) {
   if (!detection.found()) return {};
-  return outlineOf(detection.normal, detection.distance,
-                   {detection.labels, static_cast<std::uint8_t>(Label::kGround),
-                    detection.image_width, detection.image_height},
-                   rays);
+  // Ramps are ground, but not on the plane.
+  const bool numbered = !detection.plane_index.empty();
+  const PlanePixels pixels{numbered ? detection.plane_index : detection.labels,
+                           numbered ? std::uint8_t{1} : static_cast<std::uint8_t>(Label::kGround),
+                           detection.image_width, detection.image_height};
+  return outlineOf(detection.normal, detection.distance, pixels, rays);
 }
 
 std::vector<std::vector<Eigen::Vector3d>> furtherOutlines(const Detection& detection,

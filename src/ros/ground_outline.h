@@ -10,7 +10,7 @@
 
 namespace dominant_plane_detection {
 
-/// The convex hull of the ground that is seen, on the plane itself.
+/// The convex hull of the ground that is seen, on the plane itself; without ramps.
 /// @param rays of the detection's camera.
 /// @return [m] corners in the optical frame; empty without a plane, or with too little ground for a
 /// hull.

@@ -147,7 +147,11 @@ TEST_F(FloorAndMore, ARampThatIsWantedIsGround) {
     const Detection& detection = detect();
     EXPECT_EQ(on_ramp(detection), Label::kGround) << planes;
     EXPECT_EQ(detection.further_planes.size(), static_cast<std::size_t>(planes > 1 ? 1 : 0));
-    EXPECT_EQ(detection.plane_index.empty(), planes == 1);
+    EXPECT_EQ(*std::max_element(detection.plane_index.begin(), detection.plane_index.end()),
+              planes > 1 ? 2 : 1);
+    EXPECT_EQ(std::count(detection.plane_index.begin(), detection.plane_index.end(), 1),
+              static_cast<std::ptrdiff_t>(detection.inliers))
+        << "the ramp is none of them";
     parameters_.max_ramp = 7.0 * kDegree;
     EXPECT_NE(on_ramp(detect()), Label::kGround) << "steeper than wanted";
   }
@@ -170,6 +174,12 @@ TEST_F(FloorAndMore, TheLargestAreTold) {
   paint(kUp, over(320, 300, 0.5), 20, 250, 240, 450);
   const Detection& detection = detect();
   ASSERT_EQ(detection.further_planes.size(), 3U);
+  EXPECT_GT(detection.further_planes[0].inliers, detection.further_planes[1].inliers);
+  EXPECT_GT(detection.further_planes[1].inliers, detection.further_planes[2].inliers);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(std::count(detection.plane_index.begin(), detection.plane_index.end(), i + 2),
+              static_cast<std::ptrdiff_t>(detection.further_planes[i].inliers));
+  }
   EXPECT_NEAR(detection.further_planes[0].distance, kHeight - 0.5, 0.002);
   EXPECT_NEAR(detection.further_planes[1].distance, kHeight - 0.3, 0.002);
   EXPECT_NEAR(detection.further_planes[2].distance, kHeight - 0.15, 0.002);
@@ -178,6 +188,72 @@ TEST_F(FloorAndMore, TheLargestAreTold) {
   ASSERT_EQ(fewer.further_planes.size(), 1U);
   EXPECT_NEAR(fewer.further_planes[0].distance, kHeight - 0.5, 0.002);
   EXPECT_EQ(*std::max_element(fewer.plane_index.begin(), fewer.plane_index.end()), 2);
+}
+
+/// A wall behind a pillar is one plane, and takes one place.
+TEST_F(FloorAndMore, APlaneInTwoPiecesIsOne) {
+  const Eigen::Vector3d towards = (-Eigen::Vector3d::UnitZ() + kUp.z() * kUp).normalized();
+  paint(towards, over(320, 200, 0.0), 0, 0, 640, 200);
+  paint(towards, over(320, 330, 0.0), 240, 0, 340, 330);
+  for (const int planes : {2, 8}) {
+    parameters_.max_planes = planes;
+    const Detection& detection = detect();
+    const auto walls =
+        std::count_if(detection.further_planes.begin(), detection.further_planes.end(),
+                      [&](const FurtherPlane& plane) {
+                        return plane.kind == PlaneKind::kWall &&
+                               std::abs(plane.distance + towards.dot(over(320, 200, 0.0))) < 0.01;
+                      });
+    EXPECT_EQ(walls, 1) << planes;
+    EXPECT_EQ(detection.plane_index[100 * 640 + 50], detection.plane_index[100 * 640 + 600]);
+    EXPECT_NE(detection.plane_index[100 * 640 + 50], 0);
+  }
+}
+
+/// At any resolution.
+TEST_F(FloorAndMore, SmallImagesHaveThemToo) {
+  const CameraModel small = testCamera(160, 120);
+  OwnedDepth<float> depth = planeDepth(small, kUp, kHeight);
+  const Eigen::Vector2d ray = small.ray({80, 75});
+  const Eigen::Vector3d direction(ray.x(), ray.y(), 1.0);
+  const Eigen::Vector3d on_table = (0.4 - kHeight) / kUp.dot(direction) * direction;
+  paintPlane(depth, small, HessePlane::through(on_table, -kUp),
+             [](int u, int v) { return u >= 68 && u < 96 && v >= 60 && v < 88; });
+  DominantPlaneDetector detector(parameters_);
+  const Detection& detection = detector.detect(depth.view(), small);
+  ASSERT_TRUE(detection.found());
+  ASSERT_EQ(detection.further_planes.size(), 1U);
+  EXPECT_EQ(detection.further_planes.front().kind, PlaneKind::kTable);
+}
+
+/// Where a lens cannot be inverted a pixel has no plane.
+TEST_F(FloorAndMore, PixelsWithoutARayHaveNone) {
+  CameraModel fisheye = camera_;
+  fisheye.distortion = DistortionModel::kPlumbBob;
+  fisheye.coefficients = {-0.9, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  ASSERT_TRUE(std::isnan(fisheye.ray({0, 0}).x()));
+  OwnedDepth<float> depth(640, 480);
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      const Eigen::Vector2d ray = fisheye.ray({u, v});
+      const double down = -kUp.dot(Eigen::Vector3d(ray.x(), ray.y(), 1.0));
+      depth.at(u, v) = down > 0.05 ? static_cast<float>(kHeight / down) : 1.0F;
+    }
+  }
+  parameters_.max_ramp = 0.2;
+  DominantPlaneDetector detector(parameters_);
+  const Detection& detection = detector.detect(depth.view(), fisheye);
+  ASSERT_TRUE(detection.found());
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      if (!std::isnan(fisheye.ray({u, v}).x())) continue;
+      ASSERT_EQ(detection.plane_index[static_cast<std::size_t>(v * 640 + u)], 0);
+      ASSERT_EQ(detection.label(u, v), Label::kUnknown);
+    }
+  }
+  for (const FurtherPlane& plane : detection.further_planes) {
+    EXPECT_TRUE(std::isfinite(plane.mean_square_error));
+  }
 }
 
 TEST_F(FloorAndMore, ThereAreNoneUnlessAskedFor) {

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "support/detector_fixture.h"
 
@@ -223,6 +225,36 @@ TEST_F(HoledFloor, OnlyWithinTheRange) {
   const Detection& detection = detect();
   EXPECT_EQ(detection.label(320, 340), Label::kMissingGround);
   EXPECT_EQ(detection.label(320, 280), Label::kUnknown);
+}
+
+/// Stripes at both borders: where one row ends the next begins.
+TEST_F(HoledFloor, AShadowAtTheLeftBorderIsOne) {
+  fill(632, 0, 640, 480, 0.0F);
+  fill(0, 160, 24, 280, 0.0F);
+  fill(24, 150, 200, 290, 0.6F);
+  detect();
+  EXPECT_EQ(missing_, 0);
+}
+
+/// What no camera measures hides nothing.
+TEST_F(HoledFloor, TinyReadingsAreNone) {
+  cutHole(320, 330, 0.2);
+  const int whole = (detect(), missing_);
+  depth_.at(318, 330) = std::numeric_limits<float>::denorm_min();
+  detect();
+  EXPECT_EQ(missing_, whole - 1);
+}
+
+TEST_F(HoledFloor, PaddedRows) {
+  cutHole(320, 330, 0.2);
+  const int packed = (detect(), missing_);
+  std::vector<float> padded(480 * 700, 0.0F);
+  for (int v = 0; v < 480; ++v) std::copy_n(&depth_.at(0, v), 640, &padded[v * 700]);
+  const Detection& detection =
+      detector_.detect(DepthView(padded.data(), 640, 480, 700 * sizeof(float)), camera_);
+  EXPECT_EQ(std::count(detection.labels.begin(), detection.labels.end(),
+                       static_cast<std::uint8_t>(Label::kMissingGround)),
+            packed);
 }
 
 /// A size that is no multiple of a block's.
