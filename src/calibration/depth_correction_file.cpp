@@ -29,8 +29,9 @@ void saveDepthCorrection(const std::string& file, const FloorCorrection::Result&
   out.SetDoublePrecision(6);
   out << YAML::Comment(
       "1 / z' = 1 / z - c, [c] = 1/m, bilinear between the middles of columns x rows cells that\n"
-      "cover the image, row by row. The part of c that is affine in the image turns planes into\n"
-      "planes: no floor shows it, it is zero here. So is c where too few images showed floor.");
+      "cover the image, row by row. A part of c that is affine in the image turns planes into\n"
+      "planes; no floor shows it. It is such that on average the planes of the images that c was\n"
+      "learned from do not move. Zero is c where fewer than three images showed floor.");
   out << YAML::Newline << YAML::BeginMap;
   out << YAML::Key << "columns" << YAML::Value << learned.grid.columns;
   out << YAML::Key << "rows" << YAML::Value << learned.grid.rows;

@@ -6,8 +6,7 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string>
-
-#include "core/ray_table.h"
+#include <utility>
 
 namespace dominant_plane_detection {
 namespace {
@@ -17,7 +16,7 @@ constexpr int kColumns = 20;  // [#] of cells: 32 px of an image 640 px wide
 constexpr double kLittle = 0.25, kMuch = 0.5;
 /// [-] against the weight 1 of one image: how smooth c is, and how small.
 constexpr double kSmooth = 1.0, kSmall = 0.1;
-/// [#] images that have to show a cell; where fewer do, c is zero.
+/// [#] images that have to show a cell's floor; where fewer do, c is zero.
 constexpr double kMinSeen = 3.0;
 constexpr double kTiny = 1e-9;
 constexpr std::size_t kMinImages = 10;
@@ -41,6 +40,32 @@ std::string sentence(const char* format, double first, double second) {
 
 }  // namespace
 
+/// Sums over the floor's readings in each cell of an image.
+struct FloorCorrection::Sums {
+  explicit Sums(Eigen::Index cells)
+      : count(Eigen::VectorXd::Zero(cells)),
+        weights(count),
+        plane_weights(count),
+        inverse_depth(count),
+        ray(Eigen::MatrixX3d::Zero(cells, 3)) {}
+
+  /// @param inverse_depth_over [1/m] of a reading, over the image's plane.
+  void add(Eigen::Index cell, double z, const Eigen::Vector3d& reading_ray,
+           double inverse_depth_over, const NoiseModel& noise) {
+    // The error of 1 / z is sigma(z) / z^2, here as a share of what it is far away.
+    const double weight = std::pow(noise.quadratic * z * z / noise.sigma(z), 2);
+    count[cell] += 1.0;
+    // c moves a point by z^2 c along the ray, and by z c times the distance along the normal.
+    plane_weights[cell] += std::pow(z / noise.sigma(z), 2);
+    weights[cell] += weight;
+    inverse_depth[cell] += weight * inverse_depth_over;
+    ray.row(cell) += weight * reading_ray.transpose();
+  }
+
+  Eigen::VectorXd count, weights, plane_weights, inverse_depth;
+  Eigen::MatrixX3d ray;
+};
+
 void FloorCorrection::add(const DepthView& depth, const CameraModel& camera,
                           const Detection& detection) {
   if (!detection.found()) return;
@@ -53,62 +78,45 @@ void FloorCorrection::add(const DepthView& depth, const CameraModel& camera,
                              std::to_string(depth.width) + " x " + std::to_string(depth.height) +
                              " pixels.");
   }
-  RayTable rays;
-  rays.build(camera);
-  const Eigen::Index cells = static_cast<Eigen::Index>(columns_) * rows_;
-  Eigen::VectorXd count = Eigen::VectorXd::Zero(cells), weights = count, sum = count;
-  Eigen::VectorXd plane_weights = count;
-  Eigen::MatrixX3d ray = Eigen::MatrixX3d::Zero(cells, 3);
+  rays_.build(camera);
+  Sums sums(static_cast<Eigen::Index>(columns_) * rows_);
   for (int v = 0; v < depth.height; ++v) {
     for (int u = 0; u < depth.width; ++u) {
       if (detection.label(u, v) != Label::kGround) continue;
-      const Eigen::Index cell = static_cast<Eigen::Index>(v * rows_ / depth.height) * columns_ +
-                                u * columns_ / depth.width;
       const auto z = static_cast<double>(metresAt(depth, u, v));
-      if (!(z > 0.0)) continue;  // a ramp's or a hole's pixel need not have a reading
-      const Eigen::Vector3d r = rays.ray(u, v).cast<double>();
-      const double weight = std::pow(noise_.quadratic * z * z / noise_.sigma(z), 2);
-      count[cell] += 1.0;
-      // c moves a point by z^2 c along the ray, and by z c times the distance along the normal.
-      plane_weights[cell] += std::pow(z / noise_.sigma(z), 2);
-      weights[cell] += weight;
-      sum[cell] += weight * (1.0 / z + detection.normal.dot(r) / detection.distance);
-      ray.row(cell) += weight * r.transpose();
+      const Eigen::Vector3d ray = rays_.ray(u, v).cast<double>();
+      const Eigen::Index row = static_cast<Eigen::Index>(v) * rows_ / depth.height;
+      const Eigen::Index column = static_cast<Eigen::Index>(u) * columns_ / depth.width;
+      sums.add(row * columns_ + column, z, ray,
+               1.0 / z + detection.normal.dot(ray) / detection.distance, noise_);
     }
   }
-  Image image{Eigen::VectorXd::Zero(cells), plane_weights, Eigen::VectorXd::Zero(cells),
-              Eigen::MatrixX3d::Zero(cells, 3)};
-  const double pixels =
-      static_cast<double>(depth.width) * depth.height / static_cast<double>(cells);
+  keep(sums, static_cast<double>(depth.width) * depth.height / (columns_ * rows_));
+}
+
+/// Keeps an image if enough of its cells show floor.
+/// @param pixels [px] of a cell.
+void FloorCorrection::keep(const Sums& sums, double pixels) {
+  const Eigen::Index cells = sums.count.size();
+  Image image{Eigen::VectorXd::Zero(cells), Eigen::VectorXd::Zero(cells),
+              Eigen::VectorXd::Zero(cells), Eigen::MatrixX3d::Zero(cells, 3)};
   for (Eigen::Index cell = 0; cell < cells; ++cell) {
-    if (count[cell] < kLittle * pixels) continue;
-    image.weight[cell] =
-        std::min(1.0, count[cell] / (kMuch * pixels)) * weights[cell] / count[cell];
-    image.inverse_depth[cell] = sum[cell] / weights[cell];
-    image.ray.row(cell) = ray.row(cell) / weights[cell];
+    const double count = sums.count[cell], weights = sums.weights[cell];
+    if (count < kLittle * pixels) continue;
+    image.weight[cell] = std::min(1.0, count / (kMuch * pixels)) * weights / count;
+    image.plane_weight[cell] = sums.plane_weights[cell];
+    image.inverse_depth[cell] = sums.inverse_depth[cell] / weights;
+    image.ray.row(cell) = sums.ray.row(cell) / weights;
   }
   if (static_cast<std::size_t>((image.weight.array() > 0.0).count()) >= kMinCells) {
     images_.push_back(std::move(image));
   }
 }
 
-/// @return [1/m] c of each cell.
-Eigen::VectorXd FloorCorrection::solve(const std::vector<const Image*>& images) const {
+/// @return the Laplacian of a grid of cells: how much c bends.
+Eigen::MatrixXd FloorCorrection::bending() const {
   const Eigen::Index cells = static_cast<Eigen::Index>(columns_) * rows_;
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(cells, cells);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(cells), seen = right;
-  Eigen::MatrixX3d ray = Eigen::MatrixX3d::Zero(cells, 3);
-  for (const Image* image : images) {
-    const Eigen::MatrixX3d weighted = image->weight.asDiagonal() * image->ray;
-    const Eigen::LDLT<Eigen::Matrix3d> plane(image->ray.transpose() * weighted);
-    matrix -= weighted * plane.solve(weighted.transpose());
-    matrix.diagonal() += image->weight;
-    right += image->weight.cwiseProduct(image->inverse_depth) -
-             weighted * plane.solve(weighted.transpose() * image->inverse_depth);
-    ray += weighted;
-    seen += image->weight;
-  }
-  Eigen::MatrixXd bend = Eigen::MatrixXd::Zero(cells, cells);  // the grid's Laplacian
+  Eigen::MatrixXd bend = Eigen::MatrixXd::Zero(cells, cells);
   const auto addEdge = [&](Eigen::Index a, Eigen::Index b) {
     bend(a, a) += 1.0;
     bend(b, b) += 1.0;
@@ -122,19 +130,46 @@ Eigen::VectorXd FloorCorrection::solve(const std::vector<const Image*>& images) 
       if (row + 1 < rows_) addEdge(cell, cell + columns_);
     }
   }
+  return bend;
+}
+
+/// @return [1/m] c of each cell.
+Eigen::VectorXd FloorCorrection::solve(const std::vector<const Image*>& images) const {
+  const Eigen::Index cells = static_cast<Eigen::Index>(columns_) * rows_;
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(cells, cells);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(cells), seen = right;
+  for (const Image* image : images) {
+    const Eigen::MatrixX3d weighted = image->weight.asDiagonal() * image->ray;
+    const Eigen::LDLT<Eigen::Matrix3d> plane(image->ray.transpose() * weighted);
+    matrix -= weighted * plane.solve(weighted.transpose());
+    matrix.diagonal() += image->weight;
+    right += image->weight.cwiseProduct(image->inverse_depth) -
+             weighted * plane.solve(weighted.transpose() * image->inverse_depth);
+    seen.array() += (image->weight.array() > 0.0).cast<double>();
+  }
+  const Eigen::MatrixXd bend = bending();
   matrix += kSmooth * bend * bend;
   matrix.diagonal().array() += kSmall;
-  Eigen::VectorXd correction = matrix.ldlt().solve(right);
-  correction = (seen.array() >= kMinSeen).select(correction, 0.0);
-  Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+  const Eigen::VectorXd correction = matrix.ldlt().solve(right);
+  return (seen.array() >= kMinSeen).select(withoutPlanes(correction, images), 0.0);
+}
+
+/// @return c without what on average moves the planes of the images.
+Eigen::VectorXd FloorCorrection::withoutPlanes(const Eigen::VectorXd& correction,
+                                               const std::vector<const Image*>& images) {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  Eigen::MatrixX3d ray = Eigen::MatrixX3d::Zero(correction.size(), 3);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(correction.size());
   for (const Image* image : images) {
-    const Eigen::VectorXd known = (image->weight.array() > 0.0).select(image->plane_weight, 0.0);
-    const Eigen::MatrixX3d weighted = known.asDiagonal() * image->ray;
-    moved += (image->ray.transpose() * weighted).ldlt().solve(weighted.transpose() * correction);
+    const Eigen::MatrixX3d weighted = image->plane_weight.asDiagonal() * image->ray;
+    matrix += image->ray.transpose() * weighted;
+    right += weighted.transpose() * correction;
+    ray += weighted;
+    weights += image->plane_weight;
   }
-  ray.array().colwise() /= seen.array().max(kTiny);
-  correction -= ray * moved / static_cast<double>(images.size());
-  return (seen.array() >= kMinSeen).select(correction, 0.0);
+  ray.array().colwise() /= weights.array().max(kTiny);
+  return correction - ray * matrix.ldlt().solve(right);
 }
 
 /// @return [1/m] rms of an image's corrected cells over the plane that fits them best.

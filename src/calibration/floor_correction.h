@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/ray_table.h"
 #include "dominant_plane_detection/camera_model.h"
 #include "dominant_plane_detection/depth_correction.h"
 #include "dominant_plane_detection/depth_image.h"
@@ -36,7 +37,7 @@ class FloorCorrection {
   /// @param noise by which readings weigh.
   explicit FloorCorrection(const NoiseModel& noise) : noise_(noise) {}
 
-  /// @param detection of the image; without a plane it does not count.
+  /// @param detection of the image, without ramps as ground; without a plane it does not count.
   void add(const DepthView& depth, const CameraModel& camera, const Detection& detection);
 
   std::size_t images() const { return images_.size(); }  ///< [#] that count
@@ -55,10 +56,17 @@ class FloorCorrection {
     Eigen::MatrixX3d ray;           ///< [-] (X/Z, Y/Z, 1), means
   };
 
+  struct Sums;
+
+  void keep(const Sums& sums, double pixels);
+  Eigen::MatrixXd bending() const;
   Eigen::VectorXd solve(const std::vector<const Image*>& images) const;
+  static Eigen::VectorXd withoutPlanes(const Eigen::VectorXd& correction,
+                                       const std::vector<const Image*>& images);
   static double unevenness(const Image& image, const Eigen::VectorXd& correction);
 
   NoiseModel noise_;
+  RayTable rays_;
   int columns_ = 0, rows_ = 0;
   std::vector<Image> images_;
 };

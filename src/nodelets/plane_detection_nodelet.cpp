@@ -69,21 +69,26 @@ void PlaneDetectionNodelet::trySubscriptions() {
   overlay_->followListeners();
 }
 
-void PlaneDetectionNodelet::onFrame(const DetectionInputs::Frame& read) {
+void PlaneDetectionNodelet::onFrame(const DetectionInputs::Frame& frame) {
   try {
-    DetectionInputs::Frame frame = read;
-    if (correction_) frame.depth = correction_->correct(read.depth);
-    const auto start = std::chrono::steady_clock::now();
-    const Detection& detection = detector_.detect(frame.depth, frame.camera);
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-    diagnostics_->count(detection, time.count());
-    mount_service_->add(detection, frame.header.frame_id);
-    outputs_.publish(frame, detection, time.count());
-    overlay_->publish(frame, detection);
+    if (!correction_) return detect(frame);
+    DetectionInputs::Frame corrected = frame;
+    corrected.depth = correction_->correct(frame.depth);
+    detect(corrected);
   } catch (const std::exception& error) {
     diagnostics_->countFailure(error.what());
     NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped an image: " << error.what());
   }
+}
+
+void PlaneDetectionNodelet::detect(const DetectionInputs::Frame& frame) {
+  const auto start = std::chrono::steady_clock::now();
+  const Detection& detection = detector_.detect(frame.depth, frame.camera);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  diagnostics_->count(detection, time.count());
+  mount_service_->add(detection, frame.header.frame_id);
+  outputs_.publish(frame, detection, time.count());
+  overlay_->publish(frame, detection);
 }
 
 void PlaneDetectionNodelet::onReconfigure(PlaneDetectionConfig& config) {

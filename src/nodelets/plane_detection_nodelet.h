@@ -34,7 +34,8 @@ class PlaneDetectionNodelet : public PeriodicNodelet {
   void onTimer() override;
   void followListeners();
   void trySubscriptions();
-  void onFrame(const DetectionInputs::Frame& read);
+  void onFrame(const DetectionInputs::Frame& frame);
+  void detect(const DetectionInputs::Frame& frame);
   void onReconfigure(PlaneDetectionConfig& config);
 
   std::optional<DepthCorrection> correction_;

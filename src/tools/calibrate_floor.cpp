@@ -1,6 +1,7 @@
 // A depth camera's fixed error, learned from the floor.
 
 #include <cstdio>
+#include <stdexcept>
 #include <string>
 
 #include "calibration/depth_correction_file.h"
@@ -22,7 +23,11 @@ constexpr const char* kDescription =
     "  detect_planes drive.bag --correction my_camera_correction.yaml --output result\n";
 
 int run(const SourceArguments& arguments, const std::string& output) {
-  const Parameters parameters = arguments.readParameters();
+  if (!arguments.correction.empty()) {
+    throw std::invalid_argument("--correction: expected images as the camera gives them");
+  }
+  Parameters parameters = arguments.readParameters();
+  parameters.max_ramp = 0.0;  // a ramp is no part of the plane
   DominantPlaneDetector detector(parameters);
   const Inputs inputs = openInputs(arguments.inputs, arguments.readSourceOptions());
   FloorCorrection correction(parameters.noise);
@@ -33,7 +38,8 @@ int run(const SourceArguments& arguments, const std::string& output) {
   saveDepthCorrection(output, learned);
   constexpr double kAtTwoMetres = 1e3 * 2.0 * 2.0;  // [mm m] from 1/m
   std::printf(
-      "%zu images. On images that it is not learned from, the rms of 32 x 32 px of the floor over "
+      "%zu images. On images that it is not learned from, the rms of a twentieth of the image's "
+      "width of floor over "
       "its plane, as depth at 2 m: %.1f mm before, %.1f mm after. Written to %s.\n",
       learned.images, kAtTwoMetres * learned.before, kAtTwoMetres * learned.after, output.c_str());
   return all ? 0 : 1;

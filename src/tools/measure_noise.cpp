@@ -45,13 +45,17 @@ void printProfile(std::size_t images, const std::vector<FloorNoiseFigures>& figu
       "# [m], [1/m] rms of small blocks over the ground about them\n"
       "local_error_constant: %.2g\nlocal_error_quadratic: %.2g\n\n"
       "# [m], [1/m] rms of 112 x 112 px of a floor over its plane\n"
-      "smooth_error_constant: %.2g\nsmooth_error_quadratic: %.2g\n",
+      "smooth_error_constant: %.2g\nsmooth_error_quadratic: %.2g\n\n"
+      "# What a large part of the image shares no plane shows: wide_error_constant and\n"
+      "# wide_error_quadratic stay those of --params, by default a Kinect's.\n",
       images, std::max(local.constant, 1e-5), local.quadratic, std::max(smooth.constant, 1e-5),
       smooth.quadratic);
 }
 
 int run(const SourceArguments& arguments) {
-  DominantPlaneDetector detector(arguments.readParameters());
+  Parameters parameters = arguments.readParameters();
+  parameters.max_ramp = 0.0;  // a ramp is no part of the plane
+  DominantPlaneDetector detector(parameters);
   const Inputs inputs = openInputs(arguments.inputs, arguments.readSourceOptions());
   FloorNoise noise;
   const bool all = forEachFrame(inputs, "measure_noise", [&](const Frame& frame) {

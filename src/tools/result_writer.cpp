@@ -1,6 +1,7 @@
 #include "result_writer.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -70,6 +71,7 @@ ResultWriter::ResultWriter(const std::string& folder, bool labels, bool further_
   if (labels) makeFolder(folder + "/labels");
   planes_ = openTable(folder + "/planes.csv");
   planes_ << "frame,state,normal_x,normal_y,normal_z,distance,mse,inliers,ms,reason,covariance\n";
+  std::filesystem::remove(folder + "/planes_more.csv");  // of an earlier run
   if (!further_planes) return;
   further_planes_ = openTable(folder + "/planes_more.csv");
   further_planes_ << "frame,rank,normal_x,normal_y,normal_z,distance,inliers,kind\n";

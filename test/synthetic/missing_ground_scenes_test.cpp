@@ -85,8 +85,11 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Holes,
 TEST_P(Holes, OfTwentyCentimetresAreToldWithinTwoMetres) {
   const auto& [kind, error] = GetParam();
   int holes = 0, told = 0;
-  std::size_t missing = 0, wrong = 0, pixels = 0;
-  for (int seed = 1; holes < longForm(25, 200); ++seed) {
+  std::size_t wrong = 0, pixels = 0;
+  const int wanted = longForm(25, 200);
+  for (int seed = 1; holes < wanted; ++seed) {
+    // Few have no room for a hole, or a floor that is not found.
+    ASSERT_LT(seed, 2 * wanted) << holes;
     const auto number = static_cast<std::uint32_t>(seed);
     const SurfaceScene scene = surfaceScene(kind, number);
     const Floor floor(scene);
@@ -105,15 +108,15 @@ TEST_P(Holes, OfTwentyCentimetresAreToldWithinTwoMetres) {
     const auto in_hole =
         static_cast<std::size_t>(std::count_if(hole.begin(), hole.end(), is_missing));
     told += 2 * in_hole >= hole.size();
+    std::size_t missing = 0;
     for (std::size_t i = 0; i < depth.size(); ++i) missing += is_missing(i);
     wrong += missing - in_hole;
-    missing = 0;
     pixels += depth.size();
   }
   // Those that are missed are in floors half of which was taken for another surface, or are next to
   // them: 6 of 200 with a Kinect's error and a camera that is rolled.
   EXPECT_GE(100 * told, longForm(90, 95) * holes) << told << " of " << holes;
-  EXPECT_LE(static_cast<double>(wrong), 0.01 * static_cast<double>(pixels));
+  EXPECT_LE(static_cast<double>(wrong), 1e-4 * static_cast<double>(pixels));
   RecordProperty("told", told);
   RecordProperty("wrong_share",
                  std::to_string(static_cast<double>(wrong) / static_cast<double>(pixels)));
