@@ -10,6 +10,7 @@
 #include "core/ground_segmentation.h"
 #include "core/ray_table.h"
 #include "core/tile_moments.h"
+#include "dominant_plane_detection/depth_correction.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "reference_sets.h"
 
@@ -66,6 +67,34 @@ void labels(benchmark::State& state) {
   }
 }
 BENCHMARK(labels)->Unit(benchmark::kMicrosecond);
+
+/// What can be switched on and off, by what the whole detector takes with it.
+void detectorWith(benchmark::State& state, const Parameters& parameters) {
+  DominantPlaneDetector detector(parameters);
+  const DepthView view = depth();
+  for (auto _ : state) benchmark::DoNotOptimize(detector.detect(view, scene().camera).inliers);
+}
+Parameters withAll(bool covariance, bool missing_ground, int max_planes) {
+  Parameters parameters;
+  parameters.covariance = covariance;
+  parameters.missing_ground = missing_ground;
+  parameters.max_planes = max_planes;
+  return parameters;
+}
+BENCHMARK_CAPTURE(detectorWith, nothing_more, withAll(false, false, 1))
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(detectorWith, covariance, withAll(true, false, 1))->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(detectorWith, missing_ground, withAll(false, true, 1))
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(detectorWith, further_planes, withAll(false, false, 8))
+    ->Unit(benchmark::kMicrosecond);
+
+void depthCorrection(benchmark::State& state) {
+  DepthCorrection correction({2, 2, {0.001, -0.001, 0.002, 0.0}});
+  const DepthView view = depth();
+  for (auto _ : state) benchmark::DoNotOptimize(correction.correct(view).data);
+}
+BENCHMARK(depthCorrection)->Unit(benchmark::kMicrosecond);
 
 /// An image of raw disparity as somebody sees it: neighbours differ by little.
 std::vector<std::uint16_t> disparity() {

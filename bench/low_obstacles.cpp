@@ -20,6 +20,7 @@
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "floor_contestants.h"
+#include "support/corrected_set.h"
 #include "support/floor_objects.h"
 #include "support/recordings.h"
 #include "tools/sensor_profiles.h"
@@ -105,6 +106,7 @@ struct Options {
   int objects = 200;  ///< [#] a cell
   int smear = 1;      ///< [px]
   bool others = false;
+  bool corrected = false;
   std::string pictures;
   std::vector<std::string> settings;
 };
@@ -221,7 +223,15 @@ int run(const Options& options) {
                                                              {loadCabinet(), "xtion"}};
   for (const auto& [set, sensor] : recordings) {
     if (set.images.empty()) throw std::runtime_error("no recordings in " + recordingsFolder());
-    evaluate(set, sensor, options);
+    if (!options.corrected) {
+      evaluate(set, sensor, options);
+      continue;
+    }
+    try {
+      evaluate(correctByFolds(set, parametersOf(set, sensor, options.settings)), sensor, options);
+    } catch (const std::runtime_error& refused) {
+      std::printf("\n%s: %s\n", set.name.c_str(), refused.what());
+    }
   }
   return 0;
 }
@@ -238,6 +248,8 @@ int main(int argc, char** argv) {
   app.add_option("--smear", options.smear, "[px] over which the sensor smears their edges")
       ->capture_default_str();
   app.add_flag("--others", options.others, "beside other detectors, on 20 objects each");
+  app.add_flag("--corrected", options.corrected,
+               "without the fixed error that is learned from the other images");
   app.add_option("--pictures", options.pictures, "folder for pictures of the floors");
   app.add_option("--set", options.settings, "NAME=VALUE, a parameter; may be repeated");
   return dpd::runTool(app, argc, argv, [&] { return dpd::run(options); });

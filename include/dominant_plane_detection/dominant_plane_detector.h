@@ -26,7 +26,8 @@ struct Prior {
 /// Finds the dominant plane of depth images and labels every pixel by it.
 ///
 /// All memory belongs to the detector and is reused: after the first image of a size, `grid`
-/// allocates nothing (`kdtree` builds its trees anew). Not for concurrent use; threads take a
+/// allocates nothing unless further planes are asked for (`kdtree` builds its trees anew). Not for
+/// concurrent use; threads take a
 /// detector each.
 class DominantPlaneDetector {
  public:

@@ -257,5 +257,20 @@ TEST(Detector, AnObstacleThatComesLaterAllocatesNothing) {
   EXPECT_EQ(detection.label(330, 290), Label::kObstacle);
 }
 
+TEST(Detector, AHoleThatComesLaterAllocatesNothing) {
+  const CameraModel camera = testCamera();
+  const OwnedDepth<float> floor = planeDepth(camera, upOf(0.6), 0.9);
+  OwnedDepth<float> holed = floor;
+  for (int v = 250; v < 400; ++v) {
+    for (int u = 200; u < 480; ++u) holed.at(u, v) = 0.0F;
+  }
+  DominantPlaneDetector detector;
+  ASSERT_TRUE(detector.detect(floor.view(), camera).found());
+  const std::size_t before = allocationCount();
+  const Detection& detection = detector.detect(holed.view(), camera);
+  EXPECT_EQ(allocationCount() - before, 0U);
+  EXPECT_EQ(detection.label(330, 300), Label::kMissingGround);
+}
+
 }  // namespace
 }  // namespace dominant_plane_detection
