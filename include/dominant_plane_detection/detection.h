@@ -107,6 +107,13 @@ struct Detection {
         labels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image_width) +
                static_cast<std::size_t>(u)]);
   }
+  /// @return whether a pixel is ground on the dominant plane: no ramp's.
+  bool onPlane(int u, int v) const {
+    const bool ground = label(u, v) == Label::kGround;
+    if (plane_index.empty() || !ground) return ground;
+    return plane_index[static_cast<std::size_t>(v) * static_cast<std::size_t>(image_width) +
+                       static_cast<std::size_t>(u)] == 1;
+  }
   /// @return [-] inliers as a share of the valid pixels; NaN without a plane.
   double inlierShare() const {
     return found() ? static_cast<double>(inliers) / static_cast<double>(valid_pixels)

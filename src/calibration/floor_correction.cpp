@@ -82,7 +82,7 @@ void FloorCorrection::add(const DepthView& depth, const CameraModel& camera,
   Sums sums(static_cast<Eigen::Index>(columns_) * rows_);
   for (int v = 0; v < depth.height; ++v) {
     for (int u = 0; u < depth.width; ++u) {
-      if (detection.label(u, v) != Label::kGround) continue;
+      if (!detection.onPlane(u, v)) continue;
       const auto z = static_cast<double>(metresAt(depth, u, v));
       const Eigen::Vector3d ray = rays_.ray(u, v).cast<double>();
       const Eigen::Index row = static_cast<Eigen::Index>(v) * rows_ / depth.height;

@@ -37,7 +37,7 @@ class FloorCorrection {
   /// @param noise by which readings weigh.
   explicit FloorCorrection(const NoiseModel& noise) : noise_(noise) {}
 
-  /// @param detection of the image, without ramps as ground; without a plane it does not count.
+  /// @param detection of the image; without a plane it does not count.
   void add(const DepthView& depth, const CameraModel& camera, const Detection& detection);
 
   std::size_t images() const { return images_.size(); }  ///< [#] that count

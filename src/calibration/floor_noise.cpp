@@ -83,9 +83,7 @@ struct FloorNoise::Heights {
     cv::Mat ground(size, CV_32F);
     for (int i = 0; i < size.area(); ++i) {
       ground.at<float>(i / size.width, i % size.width) =
-          detection.labels[static_cast<std::size_t>(i)] == static_cast<std::uint8_t>(Label::kGround)
-              ? 1.0F
-              : 0.0F;
+          detection.onPlane(i % size.width, i / size.width) ? 1.0F : 0.0F;
     }
     const cv::Mat share = windowSums(ground, kFloorWindow) / (kFloorWindow * kFloorWindow);
     height = cv::Mat::zeros(size, CV_32F);

@@ -31,8 +31,10 @@ void PlaneDetectionNodelet::start() {
   const ros::NodeHandle& node = getNodeHandle();
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   detector_ = DominantPlaneDetector(loadParameters<Parameters, PlaneDetectionConfig>(
-      private_node, {"input", "rectified", "image_transport", "correction"}));
+      private_node, {"input", "rectified", "image_transport", "correction", "learn_correction"}));
   correction_ = readCorrection(private_node);
+  learner_ = std::make_unique<CorrectionLearner>(private_node, detector_.parameters().noise,
+                                                 correction_.has_value());
   inputs_ = std::make_unique<DetectionInputs>(
       node, private_node, readInputKind(private_node), private_node.param("rectified", false),
       [this](const DetectionInputs::Frame& frame) { onFrame(frame); });
@@ -63,8 +65,8 @@ void PlaneDetectionNodelet::followListeners() {
 }
 
 void PlaneDetectionNodelet::trySubscriptions() {
-  const bool wanted =
-      outputs_.anybodyListens() || overlay_->anybodyListens() || mount_service_->wants();
+  const bool wanted = outputs_.anybodyListens() || overlay_->anybodyListens() ||
+                      mount_service_->wants() || learner_->wants();
   if (wanted != inputs_->subscribed()) wanted ? inputs_->subscribe() : inputs_->unsubscribe();
   overlay_->followListeners();
 }
@@ -87,6 +89,7 @@ void PlaneDetectionNodelet::detect(const DetectionInputs::Frame& frame) {
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   diagnostics_->count(detection, time.count());
   mount_service_->add(detection, frame.header.frame_id);
+  learner_->add(frame, detection);
   outputs_.publish(frame, detection, time.count());
   overlay_->publish(frame, detection);
 }

@@ -10,6 +10,7 @@
 #include "dominant_plane_detection/depth_correction.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "nodelets/periodic_nodelet.h"
+#include "ros/correction_learner.h"
 #include "ros/detection_diagnostics.h"
 #include "ros/detection_inputs.h"
 #include "ros/detection_outputs.h"
@@ -42,6 +43,7 @@ class PlaneDetectionNodelet : public PeriodicNodelet {
   DominantPlaneDetector detector_;
   DetectionOutputs outputs_;
   std::unique_ptr<OverlayOutput> overlay_;
+  std::unique_ptr<CorrectionLearner> learner_;
   std::unique_ptr<DetectionInputs> inputs_;
   std::unique_ptr<MountService> mount_service_;
   std::unique_ptr<dynamic_reconfigure::Server<PlaneDetectionConfig>> reconfigure_;

@@ -13,26 +13,16 @@ struct Basis {
   Eigen::Vector3d first, second;
 };
 
-/// The pixels of a plane: those with a value.
-struct PlanePixels {
-  const std::vector<std::uint8_t>& image;
-  std::uint8_t value;
-  int width, height;  ///< [px]
-
-  bool at(int u, int v) const {
-    return image[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
-                 static_cast<std::size_t>(u)] == value;
-  }
-};
-
+/// @param isOn whether a pixel (u, v) is the plane's.
 /// @return the outermost pixels of each row: their hull is that of all.
-std::vector<Eigen::Vector2i> rowEnds(const PlanePixels& pixels) {
+template <typename IsOn>
+std::vector<Eigen::Vector2i> rowEnds(const Detection& detection, IsOn&& isOn) {
   std::vector<Eigen::Vector2i> ends;
-  for (int v = 0; v < pixels.height; ++v) {
+  for (int v = 0; v < detection.image_height; ++v) {
     int left = 0;
-    int right = pixels.width - 1;
-    while (left <= right && !pixels.at(left, v)) ++left;
-    while (right > left && !pixels.at(right, v)) --right;
+    int right = detection.image_width - 1;
+    while (left <= right && !isOn(left, v)) ++left;
+    while (right > left && !isOn(right, v)) --right;
     if (left > right) continue;
     ends.emplace_back(left, v);
     ends.emplace_back(right, v);
@@ -41,11 +31,12 @@ std::vector<Eigen::Vector2i> rowEnds(const PlanePixels& pixels) {
 }
 
 std::vector<Eigen::Vector3d> outlineOf(const Eigen::Vector3d& normal, double distance,
-                                       const PlanePixels& pixels, const RayTable& rays) {
+                                       const std::vector<Eigen::Vector2i>& pixels,
+                                       const RayTable& rays) {
   const Basis basis(normal);
   const Eigen::Vector3d origin = -distance * normal;
   std::vector<cv::Point2f> flat;
-  for (const Eigen::Vector2i& pixel : rowEnds(pixels)) {
+  for (const Eigen::Vector2i& pixel : pixels) {
     const Eigen::Vector3d ray = rays.ray(pixel.x(), pixel.y()).cast<double>();
     const double fall = -normal.dot(ray);
     if (!(fall >= 1e-6)) continue;  // along the plane, or an unknown ray: never meets it
@@ -69,11 +60,7 @@ std::vector<Eigen::Vector3d> outlineOf(const Eigen::Vector3d& normal, double dis
 
 std::vector<Eigen::Vector3d> groundOutline(const Detection& detection, const RayTable& rays) {
   if (!detection.found()) return {};
-  // Ramps are ground, but not on the plane.
-  const bool numbered = !detection.plane_index.empty();
-  const PlanePixels pixels{numbered ? detection.plane_index : detection.labels,
-                           numbered ? std::uint8_t{1} : static_cast<std::uint8_t>(Label::kGround),
-                           detection.image_width, detection.image_height};
+  const auto pixels = rowEnds(detection, [&](int u, int v) { return detection.onPlane(u, v); });
   return outlineOf(detection.normal, detection.distance, pixels, rays);
 }
 
@@ -82,9 +69,12 @@ std::vector<std::vector<Eigen::Vector3d>> furtherOutlines(const Detection& detec
   std::vector<std::vector<Eigen::Vector3d>> outlines;
   std::uint8_t number = 1;  // the dominant plane's
   for (const FurtherPlane& plane : detection.further_planes) {
-    outlines.push_back(outlineOf(
-        plane.normal, plane.distance,
-        {detection.plane_index, ++number, detection.image_width, detection.image_height}, rays));
+    ++number;
+    const auto pixels = rowEnds(detection, [&](int u, int v) {
+      return detection.plane_index[static_cast<std::size_t>(v * detection.image_width + u)] ==
+             number;
+    });
+    outlines.push_back(outlineOf(plane.normal, plane.distance, pixels, rays));
   }
   return outlines;
 }

@@ -26,8 +26,7 @@ int run(const SourceArguments& arguments, const std::string& output) {
   if (!arguments.correction.empty()) {
     throw std::invalid_argument("--correction: expected images as the camera gives them");
   }
-  Parameters parameters = arguments.readParameters();
-  parameters.max_ramp = 0.0;  // a ramp is no part of the plane
+  const Parameters parameters = arguments.readParameters();
   DominantPlaneDetector detector(parameters);
   const Inputs inputs = openInputs(arguments.inputs, arguments.readSourceOptions());
   FloorCorrection correction(parameters.noise);

@@ -53,9 +53,7 @@ void printProfile(std::size_t images, const std::vector<FloorNoiseFigures>& figu
 }
 
 int run(const SourceArguments& arguments) {
-  Parameters parameters = arguments.readParameters();
-  parameters.max_ramp = 0.0;  // a ramp is no part of the plane
-  DominantPlaneDetector detector(parameters);
+  DominantPlaneDetector detector(arguments.readParameters());
   const Inputs inputs = openInputs(arguments.inputs, arguments.readSourceOptions());
   FloorNoise noise;
   const bool all = forEachFrame(inputs, "measure_noise", [&](const Frame& frame) {
