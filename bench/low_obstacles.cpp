@@ -20,10 +20,10 @@
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "floor_contestants.h"
+#include "ros/sensor_profiles.h"
 #include "support/corrected_set.h"
 #include "support/floor_objects.h"
 #include "support/recordings.h"
-#include "tools/sensor_profiles.h"
 #include "tools/source_arguments.h"
 #include "tools/tool_main.h"
 #include "tools/yaml_files.h"

@@ -8,11 +8,11 @@
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "reference_sets.h"
+#include "ros/sensor_profiles.h"
 #include "support/halves.h"
 #include "support/mahalanobis.h"
 #include "support/scoring.h"
 #include "tools/inputs.h"
-#include "tools/sensor_profiles.h"
 #include "tools/source_arguments.h"
 #include "tools/tool_main.h"
 #include "tools/yaml_files.h"

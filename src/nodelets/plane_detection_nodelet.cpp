@@ -4,6 +4,8 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "ros/correction_parameter.h"
+#include "ros/parameter_file.h"
+#include "ros/sensor_profiles.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -18,6 +20,22 @@ InputKind readInputKind(const ros::NodeHandle& node) {
   return InputKind::kDepth;
 }
 
+/// Sets the parameters of the profile that `sensor` names, over whatever they were.
+void takeProfile(const ros::NodeHandle& node) {
+  const std::string sensor = node.param<std::string>("sensor", "");
+  if (sensor.empty()) return;
+  try {
+    Parameters checked;
+    loadParameters(findSensorProfile(sensor), checked);
+    visitParameterFile(
+        findSensorProfile(sensor),
+        [&](const std::string& name, const std::string& value) { node.setParam(name, value); });
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM("Refused " << node.resolveName("sensor")
+                                << ", the parameters stay as they are: " << error.what());
+  }
+}
+
 }  // namespace
 
 void PlaneDetectionNodelet::onTimer() {
@@ -30,8 +48,9 @@ void PlaneDetectionNodelet::onTimer() {
 void PlaneDetectionNodelet::start() {
   const ros::NodeHandle& node = getNodeHandle();
   ros::NodeHandle& private_node = getPrivateNodeHandle();
-  detector_ = DominantPlaneDetector(loadParameters<Parameters, PlaneDetectionConfig>(
-      private_node, {"input", "rectified", "image_transport", "correction", "learn_correction"}));
+  takeProfile(private_node);
+  detector_ = DominantPlaneDetector(
+      loadParameters<Parameters, PlaneDetectionConfig>(private_node, nodeletParameters()));
   correction_ = readCorrection(private_node);
   learner_ = std::make_unique<CorrectionLearner>(private_node, detector_.parameters().noise,
                                                  correction_.has_value());

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "calibration/depth_correction_file.h"
-#include "sensor_profiles.h"
+#include "ros/sensor_profiles.h"
 #include "yaml_files.h"
 
 namespace dominant_plane_detection {

@@ -73,17 +73,21 @@ class Parameters(unittest.TestCase):
                              "/camera/depth/image_raw", name)
 
 
-    def test_a_sensor_overrides_the_files_errors_and_nothing_else(self):
+    def test_a_sensor_and_a_correction_are_the_nodelets_own(self):
         nodes = {"detection": "/plane_detection", "replay": "/plane_detection",
                  "pioneer": "/camera/plane_detection", "handheld": "/camera/plane_detection"}
         for name, node in nodes.items():
             arguments = {"bag": "/some.bag"} if name == "replay" else {}
             plain = parameters(load(name, **arguments), node)
             profile = parameters(load(name, sensor="xtion", **arguments), node)
-            changed = {key: profile[key] for key in profile if profile[key] != plain[key]}
-            self.assertEqual(changed, {"smooth_error_constant": 0.0004, "wide_error_constant": 0.006,
-                                       "wide_error_quadratic": 0.0006, "local_error_constant": 0.0009,
-                                       "local_error_quadratic": 0.0005}, name)
+            self.assertEqual({key: profile[key] for key in profile if profile[key] != plain.get(key)},
+                             {"sensor": "xtion"}, name)
+        for name, node in (("detection", "/plane_detection"), ("replay", "/plane_detection"),
+                           ("pioneer", "/camera/driver"), ("handheld", "/camera/driver")):
+            arguments = {"bag": "/some.bag"} if name == "replay" else {}
+            corrected = parameters(load(name, correction="/c.yaml", **arguments), node)
+            self.assertEqual(corrected["correction"], "/c.yaml", name)
+            self.assertNotIn("correction", parameters(load(name, **arguments), node), name)
 
 
 class Managers(unittest.TestCase):

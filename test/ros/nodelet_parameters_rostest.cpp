@@ -6,6 +6,8 @@
 
 #include "dominant_plane_detection/parameters.h"
 #include "nodelet_fixture.h"
+#include "ros/parameter_file.h"
+#include "ros/sensor_profiles.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -20,6 +22,24 @@ TEST_F(Nodelet, DepthIsCorrectedByAFile) {
   const Eigen::Vector3d inverse = kUp / kHeight + 0.05 * Eigen::Vector3d::UnitZ();
   EXPECT_NEAR(plane->distance, 1.0 / inverse.norm(), 0.002);
   EXPECT_NEAR(plane->normal.z, inverse.normalized().z(), 0.002);
+}
+
+/// The profile's numbers, and not those that were there.
+TEST_F(Nodelet, TakesTheProfileOfItsSensor) {
+  ASSERT_TRUE(ros::service::waitForService("/corrected_detection/set_parameters", 20000));
+  Parameters xtion;
+  loadParameters(findSensorProfile("xtion"), xtion);
+  const auto has = [&](const char* name, double value) {
+    double found = 0.0;
+    EXPECT_TRUE(node_.getParam(std::string("/corrected_detection/") + name, found));
+    EXPECT_EQ(found, value) << name;
+  };
+  has("noise_constant", xtion.noise.constant);
+  has("smooth_error_constant", xtion.smooth_error.constant);
+  has("local_error_quadratic", xtion.local_error.quadratic);
+  has("wide_error_constant", xtion.wide_error.constant);
+  EXPECT_NE(xtion.smooth_error.constant, Parameters().smooth_error.constant);
+  has("gamma_sigmas", Parameters().gamma.sigmas);
 }
 
 class Reconfigure : public Nodelet {

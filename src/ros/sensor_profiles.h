@@ -4,8 +4,9 @@
 
 namespace dominant_plane_detection {
 
-/// Finds a sensor's profile: a YAML file of detection parameters, in the package's config/sensors
-/// by its name, or anywhere by its path.
+/// Finds a sensor's profile: a YAML file of detection parameters, by its name in the package's
+/// config/sensors, or anywhere by its path. Both programs and nodelets find the package by where it
+/// is installed.
 /// @throw std::invalid_argument that lists the profiles there are.
 std::string findSensorProfile(const std::string& sensor);
 

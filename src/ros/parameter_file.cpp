@@ -1,0 +1,39 @@
+#include "ros/parameter_file.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <stdexcept>
+
+namespace dominant_plane_detection {
+
+const std::set<std::string>& nodeletParameters() {
+  static const std::set<std::string> names{"correction",       "input",     "image_transport",
+                                           "learn_correction", "rectified", "sensor"};
+  return names;
+}
+
+void visitParameterFile(
+    const std::string& file,
+    const std::function<void(const std::string& name, const std::string& value)>& visit) {
+  try {
+    const YAML::Node root = YAML::LoadFile(file);
+    if (!root.IsMap() && !root.IsNull()) {
+      throw std::invalid_argument("expected lines of the form NAME: VALUE");
+    }
+    for (const auto& entry : root) {
+      const auto name = entry.first.as<std::string>();
+      if (nodeletParameters().count(name) != 0) continue;
+      visit(name, entry.second.IsScalar() ? entry.second.Scalar() : "");
+    }
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
+}
+
+void loadParameters(const std::string& file, Parameters& parameters) {
+  visitParameterFile(file, [&](const std::string& name, const std::string& value) {
+    setParameter(parameters, name, value);
+  });
+}
+
+}  // namespace dominant_plane_detection
