@@ -95,7 +95,7 @@ ReferenceSet loadBag(const std::string& name) {
 }
 
 int run(const Options& options) {
-  std::printf("squared distances (3 expected)     images  inside      mean   but one  median%\n");
+  std::printf("squared distances (3 expected)     images  inside      mean   but one  median\n");
   const std::pair<SensorNoise, const char*> sensors[] = {
       {SensorNoise(), "kinect_v1"}, {SensorNoise::realsense(), "realsense_d4xx"}};
   for (const auto& [noise, sensor] : sensors) {
