@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <cmath>
+#include <limits>
 
 namespace dominant_plane_detection {
 namespace {
@@ -133,6 +135,39 @@ sensor_msgs::ImagePtr planeIndexMessage(const std_msgs::Header& header,
   message->data = detection.labels;
   constexpr auto kGround = static_cast<std::uint8_t>(Label::kGround);
   for (std::uint8_t& pixel : message->data) pixel = pixel == kGround ? 1 : 0;
+  return message;
+}
+
+sensor_msgs::ImagePtr heightMessage(const std_msgs::Header& header, const DepthView& depth,
+                                    const RayTable& rays, const Detection& detection) {
+  sensor_msgs::ImagePtr message = byteImage(header, detection);
+  message->encoding = sensor_msgs::image_encodings::TYPE_32FC1;
+  message->step = message->width * static_cast<std::uint32_t>(sizeof(float));
+  message->data.resize(std::size_t{message->step} * message->height);
+  const Eigen::Vector3f normal = detection.normal.cast<float>();
+  const auto distance = static_cast<float>(detection.distance);
+  for (int v = 0; v < detection.image_height; ++v) {
+    auto* row = reinterpret_cast<float*>(message->data.data() +
+                                         static_cast<std::size_t>(v) * message->step);
+    for (int u = 0; u < detection.image_width; ++u) {
+      const float z = metresAt(depth, u, v);
+      const bool read = z > 0.0F && std::isfinite(z);
+      row[u] = read ? z * normal.dot(rays.ray(u, v)) + distance
+                    : std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return message;
+}
+
+pcl_msgs::PointIndicesPtr obstacleIndices(const std_msgs::Header& header,
+                                          const Detection& detection) {
+  auto message = boost::make_shared<pcl_msgs::PointIndices>();
+  message->header = header;
+  for (std::size_t i = 0; i < detection.labels.size(); ++i) {
+    if (detection.labels[i] == static_cast<std::uint8_t>(Label::kObstacle)) {
+      message->indices.push_back(static_cast<std::int32_t>(i));
+    }
+  }
   return message;
 }
 

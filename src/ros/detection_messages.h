@@ -4,11 +4,14 @@
 #include <dominant_plane_detection/DominantPlaneArray.h>
 #include <geometry_msgs/PolygonStamped.h>
 #include <pcl_msgs/ModelCoefficients.h>
+#include <pcl_msgs/PointIndices.h>
 #include <sensor_msgs/Image.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <vector>
 
+#include "core/ray_table.h"
+#include "dominant_plane_detection/depth_image.h"
 #include "dominant_plane_detection/detection.h"
 
 namespace dominant_plane_detection {
@@ -35,6 +38,16 @@ sensor_msgs::ImagePtr maskMessage(const std_msgs::Header& header, const Detectio
 
 /// @return mono8, the `Label` of each pixel.
 sensor_msgs::ImagePtr labelsMessage(const std_msgs::Header& header, const Detection& detection);
+
+/// @return 32FC1, the height of each reading over the plane [m], negative below it; NaN without a
+/// reading, and everywhere without a plane (REP 118).
+sensor_msgs::ImagePtr heightMessage(const std_msgs::Header& header, const DepthView& depth,
+                                    const RayTable& rays, const Detection& detection);
+
+/// @return the pixels that are obstacles, by their place in the depth image row by row, which is
+/// that in an organised cloud of it.
+pcl_msgs::PointIndicesPtr obstacleIndices(const std_msgs::Header& header,
+                                          const Detection& detection);
 
 /// @param outline [m] corners.
 geometry_msgs::PolygonStampedPtr outlineMessage(const std_msgs::Header& header,

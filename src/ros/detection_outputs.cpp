@@ -31,6 +31,8 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
     cloud.publisher =
         node.advertise<sensor_msgs::PointCloud2>(cloud.topic, kQueue, changed, changed);
   }
+  obstacle_indices_ =
+      node.advertise<pcl_msgs::PointIndices>(topics::kObstacleIndices, kQueue, changed, changed);
   outline_ =
       node.advertise<geometry_msgs::PolygonStamped>(topics::kOutline, kQueue, changed, changed);
   markers_ =
@@ -39,17 +41,22 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
   mask_ = transport.advertise(topics::kGroundMask, kQueue, image_changed, image_changed);
   labels_ = transport.advertise(topics::kLabels, kQueue, image_changed, image_changed);
   plane_index_ = transport.advertise(topics::kPlaneIndex, kQueue, image_changed, image_changed);
+  height_image_ = transport.advertise(topics::kHeightImage, kQueue, image_changed, image_changed);
 }
 
 bool DetectionOutputs::anybodyListens() const {
-  const bool to_clouds = std::any_of(clouds_.begin(), clouds_.end(), [](const auto& cloud) {
-    return cloud.publisher.getNumSubscribers() > 0;
-  });
-  return to_clouds || plane_.getNumSubscribers() + planes_.getNumSubscribers() +
-                              coefficients_.getNumSubscribers() + outline_.getNumSubscribers() +
-                              markers_.getNumSubscribers() + mask_.getNumSubscribers() +
-                              labels_.getNumSubscribers() + plane_index_.getNumSubscribers() >
-                          0;
+  const auto listened = [](const auto& publisher) { return publisher.getNumSubscribers() > 0; };
+  const bool to_clouds =
+      std::any_of(clouds_.begin(), clouds_.end(),
+                  [&](const LabelledCloud& cloud) { return listened(cloud.publisher); });
+  const auto messages = {&plane_,   &planes_, &coefficients_, &obstacle_indices_,
+                         &outline_, &markers_};
+  const auto images = {&mask_, &labels_, &plane_index_, &height_image_};
+  const auto any = [&](const auto& publishers) {
+    return std::any_of(publishers.begin(), publishers.end(),
+                       [&](const auto* publisher) { return listened(*publisher); });
+  };
+  return to_clouds || any(messages) || any(images);
 }
 
 void DetectionOutputs::publish(const DetectionInputs::Frame& frame, const Detection& detection,
@@ -63,13 +70,25 @@ void DetectionOutputs::publish(const DetectionInputs::Frame& frame, const Detect
   if (detection.found() && coefficients_.getNumSubscribers() > 0) {
     coefficients_.publish(coefficientsMessage(frame.header, detection));
   }
+  if (obstacle_indices_.getNumSubscribers() > 0) {
+    obstacle_indices_.publish(obstacleIndices(frame.header, detection));
+  }
+  publishImages(frame, detection);
+  publishClouds(frame, detection);
+  publishShapes(frame, detection);
+}
+
+void DetectionOutputs::publishImages(const DetectionInputs::Frame& frame,
+                                     const Detection& detection) {
   if (mask_.getNumSubscribers() > 0) mask_.publish(maskMessage(frame.header, detection));
   if (labels_.getNumSubscribers() > 0) labels_.publish(labelsMessage(frame.header, detection));
   if (plane_index_.getNumSubscribers() > 0) {
     plane_index_.publish(planeIndexMessage(frame.header, detection));
   }
-  publishClouds(frame, detection);
-  publishShapes(frame, detection);
+  if (height_image_.getNumSubscribers() > 0) {
+    rays_.build(frame.camera);
+    height_image_.publish(heightMessage(frame.header, frame.depth, rays_, detection));
+  }
 }
 
 void DetectionOutputs::publishClouds(const DetectionInputs::Frame& frame,

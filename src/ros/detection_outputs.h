@@ -37,6 +37,7 @@ class DetectionOutputs {
     ros::Publisher publisher;
   };
 
+  void publishImages(const DetectionInputs::Frame& frame, const Detection& detection);
   void publishClouds(const DetectionInputs::Frame& frame, const Detection& detection);
   void publishShapes(const DetectionInputs::Frame& frame, const Detection& detection);
 
@@ -47,11 +48,13 @@ class DetectionOutputs {
                                         {topics::kGround, Label::kGround, {}},
                                         {topics::kDropOffs, Label::kDropOff, {}},
                                         {topics::kMissingGround, Label::kMissingGround, {}}}};
+  ros::Publisher obstacle_indices_;
   ros::Publisher outline_;
   ros::Publisher markers_;
   image_transport::Publisher mask_;
   image_transport::Publisher labels_;
   image_transport::Publisher plane_index_;
+  image_transport::Publisher height_image_;
   RayTable rays_;
 };
 

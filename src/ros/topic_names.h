@@ -26,6 +26,8 @@ constexpr const char* kObstacles = "obstacles";
 constexpr const char* kGround = "ground";
 constexpr const char* kDropOffs = "drop_offs";
 constexpr const char* kMissingGround = "missing_ground";
+constexpr const char* kObstacleIndices = "obstacle_indices";
+constexpr const char* kHeightImage = "height_image";
 constexpr const char* kOutline = "outline";
 constexpr const char* kMarkers = "markers";
 

@@ -384,6 +384,43 @@ TEST_F(DetectionMessages, PlanesAreTheDominantOneAndFurtherOnesByKind) {
   EXPECT_TRUE(planesMessage(header_, detector_.detect(empty.view(), camera_), 0.0)->planes.empty());
 }
 
+TEST_F(DetectionMessages, HeightsAndIndicesOfObstacles) {
+  const Detection& detection = detector_.detect(depth_.view(), camera_);
+  ASSERT_TRUE(detection.found());
+  const auto image = heightMessage(header_, depth_.view(), rays_, detection);
+  EXPECT_EQ(image->encoding, "32FC1");
+  EXPECT_EQ(image->header.frame_id, "optical");
+  ASSERT_EQ(image->step, 4U * 640U);
+  ASSERT_EQ(image->data.size(), 4U * 640U * 480U);
+  const auto* heights = reinterpret_cast<const float*>(image->data.data());
+  const auto indices = obstacleIndices(header_, detection);
+  EXPECT_EQ(indices->header.stamp, header_.stamp);
+  std::vector<std::int32_t> expected;
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      const float height = heights[v * 640 + u];
+      const DepthView view = depth_.view();
+      const auto z = static_cast<double>(metresAt(view, u, v));
+      if (detection.label(u, v) == Label::kObstacle) expected.push_back(v * 640 + u);
+      if (z == 0.0) {
+        ASSERT_TRUE(std::isnan(height)) << u << ", " << v;
+        continue;
+      }
+      const Eigen::Vector2d ray = camera_.ray({u, v});
+      const double truth = detection.height({z * ray.x(), z * ray.y(), z});
+      ASSERT_NEAR(static_cast<double>(height), truth, 1e-4) << u << ", " << v;
+    }
+  }
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(indices->indices, expected);
+
+  const OwnedDepth<std::uint16_t> empty(640, 480);
+  const Detection& none = detector_.detect(empty.view(), camera_);
+  const auto nothing = heightMessage(header_, empty.view(), rays_, none);
+  EXPECT_TRUE(std::isnan(reinterpret_cast<const float*>(nothing->data.data())[1000]));
+  EXPECT_TRUE(obstacleIndices(header_, none)->indices.empty());
+}
+
 TEST_F(DetectionMessages, NoPlaneIsNaNWithAReason) {
   const OwnedDepth<std::uint16_t> empty(640, 480);
   const auto plane = planeMessage(header_, detector_.detect(empty.view(), camera_), 0.001);

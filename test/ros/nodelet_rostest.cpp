@@ -1,7 +1,9 @@
 // What the nodelet publishes, and when it subscribes; on a scene whose truth is known.
 
+#include <dominant_plane_detection/DominantPlaneArray.h>
 #include <pcl_conversions/pcl_conversions.h>
 #include <pcl_msgs/ModelCoefficients.h>
+#include <pcl_msgs/PointIndices.h>
 #include <pcl_ros/point_cloud.h>
 #include <rosgraph_msgs/Log.h>
 
@@ -113,6 +115,35 @@ TEST_F(Nodelet, MissingGroundIsACloudOnThePlane) {
     ASSERT_NEAR(kUp.dot(point.getVector3fMap().cast<double>()) + kHeight, 0.0, 0.002);
     ASSERT_GT(point.z, 0.3F);
   }
+}
+
+/// What else is made of one image, each while somebody listens to it alone.
+TEST_F(Nodelet, PlanesHeightsAndIndices) {
+  Listener<DominantPlane> planes(node_, "/plane_detection/plane");
+  Listener<DominantPlaneArray> all(node_, "/plane_detection/planes");
+  Listener<sensor_msgs::Image> index(node_, "/plane_detection/plane_index");
+  Listener<sensor_msgs::Image> heights(node_, "/plane_detection/height_image");
+  Listener<pcl_msgs::PointIndices> obstacles(node_, "/plane_detection/obstacle_indices");
+  ASSERT_TRUE(waitForSubscription());
+  ASSERT_TRUE(spinUntil([&] {
+    return planes.connected() && all.connected() && index.connected() && heights.connected() &&
+           obstacles.connected();
+  }));
+  const DominantPlaneConstPtr plane = detect(planes, image_);
+  expectTruth(plane);
+  ASSERT_TRUE(spinUntil([&] {
+    return all.size() > 0 && index.size() > 0 && heights.size() > 0 && obstacles.size() > 0;
+  }));
+  ASSERT_EQ(all.last()->planes.size(), 1U);
+  EXPECT_EQ(all.last()->planes[0].distance, plane->distance);
+  EXPECT_GT(plane->covariance[15], 0.0);
+  EXPECT_EQ(std::count(index.last()->data.begin(), index.last()->data.end(), 1),
+            static_cast<std::ptrdiff_t>(plane->inliers));
+  EXPECT_EQ(heights.last()->header.stamp, plane->header.stamp);
+  const auto* height = reinterpret_cast<const float*>(heights.last()->data.data());
+  EXPECT_NEAR(static_cast<double>(height[230 * 640 + 330]), kBox, 0.005);
+  EXPECT_NEAR(static_cast<double>(height[400 * 640 + 330]), 0.0, 0.005);
+  EXPECT_NEAR(static_cast<double>(obstacles.last()->indices.size()), 3600.0, 10.0);
 }
 
 sensor_msgs::Image bluePicture() {
