@@ -20,13 +20,12 @@
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "floor_contestants.h"
-#include "ros/sensor_profiles.h"
+#include "set_parameters.h"
 #include "support/corrected_set.h"
 #include "support/floor_objects.h"
 #include "support/recordings.h"
 #include "tools/source_arguments.h"
 #include "tools/tool_main.h"
-#include "tools/yaml_files.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -139,16 +138,6 @@ int standObjects(const ReferenceSet& set, const std::vector<FloorObjects>& floor
     visit(*stood);
   }
   return objects;
-}
-
-Parameters parametersOf(const ReferenceSet& set, const std::string& sensor,
-                        const std::vector<std::string>& settings) {
-  Parameters parameters;
-  parameters.range_min = set.range_min;
-  parameters.range_max = set.range_max;
-  loadParameters(findSensorProfile(sensor), parameters);
-  applySettings(settings, parameters);
-  return parameters;
 }
 
 /// A row of found shares for each contestant.

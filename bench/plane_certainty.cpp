@@ -9,14 +9,13 @@
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "reference_sets.h"
-#include "ros/sensor_profiles.h"
+#include "set_parameters.h"
 #include "support/halves.h"
 #include "support/mahalanobis.h"
 #include "support/scoring.h"
 #include "tools/inputs.h"
 #include "tools/source_arguments.h"
 #include "tools/tool_main.h"
-#include "tools/yaml_files.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -27,14 +26,9 @@ struct Options {
   std::vector<std::string> settings;
 };
 
-Parameters parametersOf(const ReferenceSet& set, const std::string& sensor,
-                        const Options& options) {
-  Parameters parameters;
-  parameters.range_min = set.range_min;
-  parameters.range_max = set.range_max;
-  loadParameters(findSensorProfile(options.sensor.empty() ? sensor : options.sensor), parameters);
-  applySettings(options.settings, parameters);
-  return parameters;
+/// @param own of a set.
+std::string sensorOf(const std::string& own, const Options& options) {
+  return options.sensor.empty() ? own : options.sensor;
 }
 
 void print(const std::string& name, std::vector<double> squares) {
@@ -101,7 +95,7 @@ int run(const Options& options) {
   for (const auto& [noise, sensor] : sensors) {
     const ReferenceSet scenes = loadRandomScenes(options.scenes, noise, sensor);
     print(std::string("truth: scenes, ") + sensor,
-          againstTruth(scenes, parametersOf(scenes, sensor, options)));
+          againstTruth(scenes, parametersOf(scenes, sensorOf(sensor, options), options.settings)));
   }
   const std::pair<ReferenceSet, const char*> recordings[] = {
       {loadBag("robot_lab.bag"), "realsense_d4xx"},
@@ -110,7 +104,8 @@ int run(const Options& options) {
       {loadBag("handheld_desk.bag"), "kinect_v1"}};
   std::vector<double> pooled;
   for (const auto& [set, sensor] : recordings) {
-    const std::vector<double> squares = halfAgainstHalf(set, parametersOf(set, sensor, options));
+    const std::vector<double> squares =
+        halfAgainstHalf(set, parametersOf(set, sensorOf(sensor, options), options.settings));
     print("halves: " + set.name, squares);
     pooled.insert(pooled.end(), squares.begin(), squares.end());
   }

@@ -59,14 +59,21 @@ struct Effort {
   std::size_t searches = 0;  ///< in the k-d tree (kdtree)
 };
 
+/// @return what stands for a covariance that is not known: -1 in the first element.
+inline Eigen::Matrix4d unknownCovariance() {
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  covariance(0, 0) = -1.0;
+  return covariance;
+}
+
 /// A plane beside the dominant one; normal, distance and covariance as there.
 struct FurtherPlane {
   PlaneKind kind = PlaneKind::kFloor;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  double distance = 0.0;                                         ///< [m]
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Constant(-1.0);  ///< first element -1: not known
-  double mean_square_error = 0.0;                                ///< [m^2] of the inliers
-  std::size_t inliers = 0;                                       ///< [px]
+  double distance = 0.0;  ///< [m]
+  Eigen::Matrix4d covariance = unknownCovariance();
+  double mean_square_error = 0.0;  ///< [m^2] of the inliers
+  std::size_t inliers = 0;         ///< [px]
 };
 
 /// The dominant plane of one depth image, in the depth optical frame.
@@ -102,28 +109,21 @@ struct Detection {
   double height(const Eigen::Vector3d& point) const { return normal.dot(point) + distance; }
 
   bool found() const { return state == State::kFound; }
-  Label label(int u, int v) const {
-    return static_cast<Label>(
-        labels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image_width) +
-               static_cast<std::size_t>(u)]);
+  /// @return where a pixel is in `labels` and `plane_index`.
+  std::size_t indexOf(int u, int v) const {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(image_width) +
+           static_cast<std::size_t>(u);
   }
+  Label label(int u, int v) const { return static_cast<Label>(labels[indexOf(u, v)]); }
   /// @return whether a pixel is ground on the dominant plane: no ramp's.
   bool onPlane(int u, int v) const {
     const bool ground = label(u, v) == Label::kGround;
-    if (plane_index.empty() || !ground) return ground;
-    return plane_index[static_cast<std::size_t>(v) * static_cast<std::size_t>(image_width) +
-                       static_cast<std::size_t>(u)] == 1;
+    return ground && (plane_index.empty() || plane_index[indexOf(u, v)] == 1);
   }
   /// @return [-] inliers as a share of the valid pixels; NaN without a plane.
   double inlierShare() const {
     return found() ? static_cast<double>(inliers) / static_cast<double>(valid_pixels)
                    : std::numeric_limits<double>::quiet_NaN();
-  }
-
-  static Eigen::Matrix4d unknownCovariance() {
-    Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-    covariance(0, 0) = -1.0;
-    return covariance;
   }
 };
 

@@ -27,8 +27,7 @@ struct Prior {
 ///
 /// All memory belongs to the detector and is reused: after the first image of a size, `grid`
 /// allocates nothing unless further planes are asked for (`kdtree` builds its trees anew). Not for
-/// concurrent use; threads take a
-/// detector each.
+/// concurrent use; threads take a detector each.
 class DominantPlaneDetector {
  public:
   /// @throw std::invalid_argument that lists every value that cannot be used.

@@ -1,12 +1,10 @@
 #include "calibration/depth_calibration_file.h"
 
-#include <yaml-cpp/yaml.h>
-
-#include <fstream>
 #include <limits>
 #include <set>
 #include <stdexcept>
 
+#include "calibration/yaml_text.h"
 #include "core/disparity_table.h"
 
 namespace dominant_plane_detection {
@@ -73,15 +71,11 @@ void requireReadings(const DepthCalibration& calibration) {
 }  // namespace
 
 DepthCalibration loadDepthCalibration(const std::string& file) {
-  try {
-    const DepthCalibration calibration = parse(YAML::LoadFile(file));
+  return readYaml(file, "a depth calibration", [](const YAML::Node& root) {
+    const DepthCalibration calibration = parse(root);
     requireReadings(calibration);
     return calibration;
-  } catch (const YAML::BadFile&) {
-    throw std::runtime_error(file + ": expected a depth calibration, got no file that can be read");
-  } catch (const std::exception& error) {
-    throw std::runtime_error(file + ": " + error.what());
-  }
+  });
 }
 
 void saveDepthCalibration(const std::string& file, const DepthCalibrationFile& content) {
@@ -110,10 +104,7 @@ void saveDepthCalibration(const std::string& file, const DepthCalibrationFile& c
     out << YAML::Key << "description" << YAML::Value << content.description;
   }
   out << YAML::EndMap;
-  std::ofstream stream(file);
-  stream << out.c_str() << '\n';
-  stream.close();
-  if (!stream) throw std::runtime_error(file + ": cannot be written");
+  writeYaml(file, out);
 }
 
 }  // namespace dominant_plane_detection

@@ -1,15 +1,11 @@
 #include "calibration/depth_correction_file.h"
 
-#include <yaml-cpp/yaml.h>
-
-#include <fstream>
-#include <stdexcept>
+#include "calibration/yaml_text.h"
 
 namespace dominant_plane_detection {
 
 DepthCorrection loadDepthCorrection(const std::string& file) {
-  try {
-    const YAML::Node root = YAML::LoadFile(file);
+  return readYaml(file, "a depth correction", [](const YAML::Node& root) {
     for (const char* name : {"columns", "rows", "inverse_depth"}) {
       if (!root.IsMap() || !root[name]) {
         throw std::runtime_error(std::string(name) + ": expected a value, got nothing");
@@ -17,11 +13,7 @@ DepthCorrection loadDepthCorrection(const std::string& file) {
     }
     return DepthCorrection({root["columns"].as<int>(), root["rows"].as<int>(),
                             root["inverse_depth"].as<std::vector<double>>()});
-  } catch (const YAML::BadFile&) {
-    throw std::runtime_error(file + ": expected a depth correction, got no file that can be read");
-  } catch (const std::exception& error) {
-    throw std::runtime_error(file + ": " + error.what());
-  }
+  });
 }
 
 void saveDepthCorrection(const std::string& file, const FloorCorrection::Result& learned) {
@@ -42,10 +34,7 @@ void saveDepthCorrection(const std::string& file, const FloorCorrection::Result&
   out << YAML::Newline << YAML::Key << "before" << YAML::Value << learned.before;
   out << YAML::Key << "after" << YAML::Value << learned.after;
   out << YAML::EndMap;
-  std::ofstream stream(file);
-  stream << out.c_str() << '\n';
-  stream.close();
-  if (!stream) throw std::runtime_error(file + ": cannot be written");
+  writeYaml(file, out);
 }
 
 }  // namespace dominant_plane_detection

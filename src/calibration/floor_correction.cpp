@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "calibration/median.h"
+
 namespace dominant_plane_detection {
 namespace {
 
@@ -25,12 +27,6 @@ constexpr std::size_t kFolds = 5;
 /// [-] What a correction may leave of the floor's unevenness on images that it was not learned
 /// from.
 constexpr double kMostLeft = 0.75;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::string sentence(const char* format, double first, double second) {
   char text[256];
@@ -113,7 +109,7 @@ void FloorCorrection::keep(const Sums& sums, double pixels) {
   }
 }
 
-/// @return the Laplacian of a grid of cells: how much c bends.
+/// @return the quadratic form of how much c bends: the square of the grid's Laplacian.
 Eigen::MatrixXd FloorCorrection::bending() const {
   const Eigen::Index cells = static_cast<Eigen::Index>(columns_) * rows_;
   Eigen::MatrixXd bend = Eigen::MatrixXd::Zero(cells, cells);
@@ -130,11 +126,13 @@ Eigen::MatrixXd FloorCorrection::bending() const {
       if (row + 1 < rows_) addEdge(cell, cell + columns_);
     }
   }
-  return bend;
+  return bend * bend;
 }
 
+/// @param bending see there.
 /// @return [1/m] c of each cell.
-Eigen::VectorXd FloorCorrection::solve(const std::vector<const Image*>& images) const {
+Eigen::VectorXd FloorCorrection::solve(const std::vector<const Image*>& images,
+                                       const Eigen::MatrixXd& bending) const {
   const Eigen::Index cells = static_cast<Eigen::Index>(columns_) * rows_;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(cells, cells);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(cells), seen = right;
@@ -147,8 +145,7 @@ Eigen::VectorXd FloorCorrection::solve(const std::vector<const Image*>& images) 
              weighted * plane.solve(weighted.transpose() * image->inverse_depth);
     seen.array() += (image->weight.array() > 0.0).cast<double>();
   }
-  const Eigen::MatrixXd bend = bending();
-  matrix += kSmooth * bend * bend;
+  matrix += kSmooth * bending;
   matrix.diagonal().array() += kSmall;
   const Eigen::VectorXd correction = matrix.ldlt().solve(right);
   return (seen.array() >= kMinSeen).select(withoutPlanes(correction, images), 0.0);
@@ -188,6 +185,7 @@ FloorCorrection::Result FloorCorrection::learn() const {
     throw std::runtime_error("Expected at least " + std::to_string(kMinImages) +
                              " images that show much ground, got " + std::to_string(count) + ".");
   }
+  const Eigen::MatrixXd bending = this->bending();
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(columns_) * rows_);
   std::vector<double> before, after;
   std::vector<const Image*> all;
@@ -197,7 +195,7 @@ FloorCorrection::Result FloorCorrection::learn() const {
     for (std::size_t i = 0; i < count; ++i) {
       if (i < begin || i >= end) learned_from.push_back(&images_[i]);
     }
-    const Eigen::VectorXd correction = solve(learned_from);
+    const Eigen::VectorXd correction = solve(learned_from, bending);
     for (std::size_t i = begin; i < end; ++i) {
       all.push_back(&images_[i]);
       before.push_back(unevenness(images_[i], none));
@@ -211,7 +209,7 @@ FloorCorrection::Result FloorCorrection::learn() const {
         "leaves %.0f %% of the floor's unevenness, more than %.0f %%.",
         100.0 * result.after / result.before, 100.0 * kMostLeft));
   }
-  const Eigen::VectorXd correction = solve(all);
+  const Eigen::VectorXd correction = solve(all, bending);
   result.grid.inverse_depth.assign(correction.data(), correction.data() + correction.size());
   return result;
 }

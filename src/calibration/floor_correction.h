@@ -19,7 +19,7 @@ namespace dominant_plane_detection {
 /// function, the plane of that image, plus what is fixed to the pixels, c, plus errors. Least
 /// squares over all images for both: the planes are eliminated one by one (Schur complement), c is
 /// smooth and small where little is known of it. Its own affine part cannot be told from the
-/// planes; it is zero.
+/// planes: it is such that on average they do not move.
 ///
 /// Prior work corrects depth by a wall or by a map (A. Teichman, S. Miller, S. Thrun, RSS 2013;
 /// F. Basso, E. Menegatti, A. Pretto, IEEE T-RO 34(5), 2018).
@@ -60,7 +60,8 @@ class FloorCorrection {
 
   void keep(const Sums& sums, double pixels);
   Eigen::MatrixXd bending() const;
-  Eigen::VectorXd solve(const std::vector<const Image*>& images) const;
+  Eigen::VectorXd solve(const std::vector<const Image*>& images,
+                        const Eigen::MatrixXd& bending) const;
   static Eigen::VectorXd withoutPlanes(const Eigen::VectorXd& correction,
                                        const std::vector<const Image*>& images);
   static double unevenness(const Image& image, const Eigen::VectorXd& correction);

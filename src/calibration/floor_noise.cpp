@@ -7,6 +7,9 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <utility>
+
+#include "calibration/median.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -26,9 +29,7 @@ constexpr double kMedian = 0.6745;
 
 double medianOf(std::vector<float> values) {
   if (values.size() < kMinFigures) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
+  return static_cast<double>(median(std::move(values)));
 }
 
 /// @return sums over size x size pixels, at each block's place.

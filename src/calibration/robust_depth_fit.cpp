@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibration/depth_least_squares.h"
+#include "calibration/median.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -12,12 +13,6 @@ using Form = DepthCalibration::Form;
 
 constexpr double kOutlier = 4.0;        // [-] standard deviations
 constexpr double kMadToSigma = 1.4826;  // [-] of a normal distribution
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Gives every pair its standard deviation: that of the tape, and that of the raw value by the
 /// slope of the curve. Pairs that bring one of their own keep it.

@@ -157,7 +157,7 @@ class DominantPlaneDetector::Implementation {
     detection_.reason.clear();
     detection_.normal.setConstant(kNaN);
     detection_.distance = kNaN;
-    detection_.covariance = Detection::unknownCovariance();
+    detection_.covariance = unknownCovariance();
     detection_.mean_square_error = kNaN;
     detection_.inliers = 0;
     detection_.valid_pixels = 0;

@@ -58,7 +58,10 @@ void FurtherPlanes::tryRegion(std::size_t seed, const Limits& wanted) {
   for (const std::size_t tile : grown.tiles) tried_[tile] = 1;
   if (grown.points < wanted.min_points) return;
   const std::optional<SurfacePlane> surface = findSurface(judge_, grown);
-  if (!surface || !collectSurface(*surface, grown.tiles, wanted)) return;
+  if (!surface || !ground_tiles_.collectSurface(judge_, *surface, grown.tiles, wanted.pieces,
+                                                taken_, region_)) {
+    return;
+  }
   for (const std::size_t tile : ground_tiles_.pieces()) region_.add(tile, judge_.tiles());
   const std::optional<SurfacePlane> fit = fitPlane(judge_, region_, surface->plane, surface->level);
   if (!fit || region_.points < wanted.min_points) return;
@@ -66,22 +69,6 @@ void FurtherPlanes::tryRegion(std::size_t seed, const Limits& wanted) {
   if (!SurfaceCheck::isFlat(judge_, region_)) return;
   planes_.push_back({region_.plane, region_.points, ground_tiles_.ground()});
   for (const std::size_t tile : region_.tiles) tried_[tile] = taken_[tile] = 1;
-}
-
-/// The region becomes the tiles of what was grown that lie on the plane, and what hangs together
-/// with them on it.
-bool FurtherPlanes::collectSurface(const SurfacePlane& surface,
-                                   const std::vector<std::size_t>& grown, const Limits& wanted) {
-  region_.clear();
-  region_.plane = surface.plane;
-  judge_.setPlane(surface.plane, surface.plane.distance * surface.plane.normal, surface.level);
-  judge_.judgeAll();
-  for (const std::size_t tile : grown) {
-    if (judge_.onPlane(tile)) region_.add(tile, judge_.tiles());
-  }
-  if (region_.tiles.empty()) return false;
-  ground_tiles_.collect(judge_, region_, wanted.pieces, taken_);
-  return true;
 }
 
 }  // namespace dominant_plane_detection

@@ -46,8 +46,6 @@ class FurtherPlanes {
 
  private:
   void tryRegion(std::size_t seed, const Limits& wanted);
-  bool collectSurface(const SurfacePlane& surface, const std::vector<std::size_t>& grown,
-                      const Limits& wanted);
 
   TileLimits limits_;
   TileJudge judge_;

@@ -192,21 +192,9 @@ std::optional<SurfacePlane> GridSearch::decideAgain(const TileRegion& grown) {
   return fit;
 }
 
-/// The region becomes the tiles of what was grown that lie on the plane, and what hangs together
-/// with them on it.
-/// @return whether there are any.
 bool GridSearch::collectSurface(const SurfacePlane& surface,
                                 const std::vector<std::size_t>& grown) {
-  region_.clear();
-  region_.plane = surface.plane;
-  judge_.setPlane(surface.plane, surface.plane.distance * surface.plane.normal, surface.level);
-  judge_.judgeAll();
-  for (const std::size_t tile : grown) {
-    if (judge_.onPlane(tile)) region_.add(tile, *tiles_);
-  }
-  if (region_.tiles.empty()) return false;
-  ground_tiles_.collect(judge_, region_, piece_limits_, other_);
-  return true;
+  return ground_tiles_.collectSurface(judge_, surface, grown, piece_limits_, other_, region_);
 }
 
 /// Pieces beyond a gap say more about the plane than the region alone, and the plane more about

@@ -70,4 +70,19 @@ void GroundTiles::collect(TileJudge& judge, TileRegion& region, const Limits& li
   }
 }
 
+bool GroundTiles::collectSurface(TileJudge& judge, const SurfacePlane& surface,
+                                 const std::vector<std::size_t>& tiles, const Limits& limits,
+                                 const std::vector<std::uint8_t>& other, TileRegion& region) {
+  region.clear();
+  region.plane = surface.plane;
+  judge.setPlane(surface.plane, surface.plane.distance * surface.plane.normal, surface.level);
+  judge.judgeAll();
+  for (const std::size_t tile : tiles) {
+    if (judge.onPlane(tile)) region.add(tile, judge.tiles());
+  }
+  if (region.tiles.empty()) return false;
+  collect(judge, region, limits, other);
+  return true;
+}
+
 }  // namespace dominant_plane_detection

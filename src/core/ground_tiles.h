@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/plane_refinement.h"
 #include "core/tile_growth.h"
 
 namespace dominant_plane_detection {
@@ -34,6 +35,14 @@ class GroundTiles {
   /// @param other not 0 for tiles of other surfaces, padded like the moments.
   void collect(TileJudge& judge, TileRegion& region, const Limits& limits,
                const std::vector<std::uint8_t>& other);
+
+  /// The same for those of some tiles that lie on a surface's plane.
+  /// @param judge is left with that plane.
+  /// @param region becomes them, and what is added.
+  /// @return whether there are any.
+  bool collectSurface(TileJudge& judge, const SurfacePlane& surface,
+                      const std::vector<std::size_t>& tiles, const Limits& limits,
+                      const std::vector<std::uint8_t>& other, TileRegion& region);
 
   /// @return 1 for the tiles of region, rim and pieces, padded like the moments.
   const std::vector<std::uint8_t>& ground() const { return ground_; }

@@ -64,16 +64,9 @@ void visitBlock(const DepthView& depth, int column, int row, Visit&& visit) {
 
 }  // namespace
 
-float MissingGround::Sight::slope(int column, int row) const {
-  const int u = std::min(column * kBlockSize + kBlockSize / 2, input.depth.width - 1);
-  const int v = std::min(row * kBlockSize + kBlockSize / 2, input.depth.height - 1);
-  return normal.dot(input.rays.ray(u, v));
-}
-
-bool MissingGround::Sight::isWithin(int u, int v) const {
-  const float slope = normal.dot(input.rays.ray(u, v));
-  const float plane_depth = distance / slope;
-  return slope > 0.0F && plane_depth >= input.range.min && plane_depth <= input.range.max;
+float MissingGround::Sight::planeDepth(int u, int v) const {
+  const float depth = distance / normal.dot(input.rays.ray(u, v));
+  return depth >= input.range.min && depth <= input.range.max ? depth : 0.0F;
 }
 
 void MissingGround::mark(const ImageInput& input, const HessePlane& plane, const TileMoments& tiles,
@@ -115,10 +108,9 @@ void MissingGround::findEmpty(const Sight& sight, const TileMoments& tiles) {
     for (int column = 0; column < whole_columns; ++column) {
       // What is beyond the range does not count as a reading there.
       if (counts[column / kSide] > kReadings) continue;
-      const float slope = sight.slope(column, row);
-      const float plane_depth = sight.distance / slope;
-      const ReadingRange& range = sight.input.range;
-      if (!(slope > 0.0F && plane_depth >= range.min && plane_depth <= range.max)) continue;
+      const float plane_depth =
+          sight.planeDepth(column * kBlockSize + kBlockSize / 2, row * kBlockSize + kBlockSize / 2);
+      if (plane_depth == 0.0F) continue;
       if (countMissing<Pixel>(depth, column, row) < kMinMissing) continue;
       const std::size_t block = indexOf(column, row);
       state_[block] = kEmpty;
@@ -182,16 +174,17 @@ MissingGround::Piece MissingGround::grow(std::size_t start, const Sight& sight,
                                          const std::vector<std::uint8_t>& labels) {
   constexpr Step kSteps[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   const CameraModel& camera = sight.input.rays.camera();
-  const double pixel = kBlockSize * kBlockSize / (camera.fx * camera.fy);
+  const double block = kBlockSize * kBlockSize / (camera.fx * camera.fy);
   Piece piece;
   blocks_.assign(1, start);
   state_[start] = kTaken;
   for (std::size_t next = 0; next < blocks_.size(); ++next) {
     const int column = static_cast<int>(blocks_[next]) % columns_;
     const int row = static_cast<int>(blocks_[next]) / columns_;
-    // Behind a pixel there are z^2 / (fx fy normal . ray) of the plane.
+    // Behind a pixel there are z^2 / (fx fy normal . ray) of the plane, and z is distance / (normal
+    // . ray).
     const auto z = static_cast<double>(plane_depth_[blocks_[next]]);
-    piece.area += pixel * z * z / static_cast<double>(sight.slope(column, row));
+    piece.area += block * z * z * z / static_cast<double>(sight.distance);
     for (const Step& step : kSteps) {
       const int beside = column + step.column, below = row + step.row;
       const bool is_inside = inside(beside, below);
@@ -219,7 +212,7 @@ void MissingGround::label(const Sight& sight, std::vector<std::uint8_t>& labels)
            column <= std::min(middle_column + 1, columns_ - 1); ++column) {
         visitBlock(depth, column, row, [&](int u, int v) {
           std::uint8_t& label = labels[static_cast<std::size_t>(v * depth.width + u)];
-          if (label == kUnknownLabel && isMissingAt(depth, u, v) && sight.isWithin(u, v)) {
+          if (label == kUnknownLabel && isMissingAt(depth, u, v) && sight.planeDepth(u, v) > 0.0F) {
             label = kMissingLabel;
           }
         });

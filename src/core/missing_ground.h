@@ -41,11 +41,8 @@ class MissingGround {
     Eigen::Vector3f normal;  ///< [-]
     float distance;          ///< [m]
 
-    /// @return [-] positive where the ray of a block's middle meets the plane.
-    float slope(int column, int row) const;
-    /// @return whether a pixel's ray meets the plane within the range; not where the ray is
-    /// unknown.
-    bool isWithin(int u, int v) const;
+    /// @return [m] the plane's depth in a pixel; 0 where that is out of range, or the ray unknown.
+    float planeDepth(int u, int v) const;
   };
 
   template <typename Pixel>

@@ -150,7 +150,7 @@ Eigen::Matrix4d PlaneCovariance::estimate(const TileMoments& tiles,
   axes.block<3, 1>(0, 1) = plane.normal.cross(a);
   axes(3, 2) = 1.0;
   const Eigen::LDLT<Eigen::Matrix3d> normal_equations(axes.transpose() * moments * axes);
-  if (!(normal_equations.rcond() > kMinCondition)) return Detection::unknownCovariance();
+  if (!(normal_equations.rcond() > kMinCondition)) return unknownCovariance();
   for (Cell& cell : cells_) {
     if (cell.points == 0.0) continue;
     const Eigen::Vector3d centre = cell.sums.hnormalized();
@@ -167,7 +167,7 @@ Eigen::Matrix4d PlaneCovariance::estimate(const TileMoments& tiles,
   const Eigen::Matrix3d of_plane = normal_equations.solve(half.transpose());
   const Eigen::Matrix4d covariance = axes * of_plane * axes.transpose();
   // Seen edge-on, a plane's errors are infinite.
-  if (!covariance.allFinite()) return Detection::unknownCovariance();
+  if (!covariance.allFinite()) return unknownCovariance();
   return 0.5 * (covariance + covariance.transpose());  // symmetric to the last digit
 }
 

@@ -37,7 +37,6 @@ FurtherPlane PlaneInventory::describe(const Image& image, const Parameters& para
   further.kind = kindOf(image.ground, plane, image.tiles, parameters.ground_band, parameters.noise);
   further.normal = -plane.plane.normal;
   further.distance = plane.plane.distance;
-  further.covariance = Detection::unknownCovariance();
   if (parameters.covariance && parameters.max_planes > 1) {
     further.covariance = covariance_.estimate(image.tiles, plane.tiles, plane.plane,
                                               errorSizes(parameters), image.input.depth.width);

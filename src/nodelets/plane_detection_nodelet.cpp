@@ -1,6 +1,7 @@
 #include "nodelets/plane_detection_nodelet.h"
 
 #include <chrono>
+#include <map>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "ros/correction_parameter.h"
@@ -26,10 +27,13 @@ void takeProfile(const ros::NodeHandle& node) {
   if (sensor.empty()) return;
   try {
     Parameters checked;
-    loadParameters(findSensorProfile(sensor), checked);
-    visitParameterFile(
-        findSensorProfile(sensor),
-        [&](const std::string& name, const std::string& value) { node.setParam(name, value); });
+    std::map<std::string, std::string> profile;
+    visitParameterFile(findSensorProfile(sensor),
+                       [&](const std::string& name, const std::string& value) {
+                         setParameter(checked, name, value);
+                         profile[name] = value;
+                       });
+    for (const auto& [name, value] : profile) node.setParam(name, value);
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM("Refused " << node.resolveName("sensor")
                                 << ", the parameters stay as they are: " << error.what());

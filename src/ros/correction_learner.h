@@ -14,7 +14,7 @@ namespace dominant_plane_detection {
 /// Learns a camera's fixed error while the node runs, where the parameter `learn_correction` names
 /// a file to write: one image a second, anew after every minute of them, for ten minutes.
 ///
-/// Called in the thread of the node's callback queue; the arithmetic, some tenths of a second, is
+/// Called in the thread of the node's callback queue; the arithmetic, up to some seconds, is
 /// done by a copy in a thread of its own, which the destructor waits for.
 class CorrectionLearner {
  public:

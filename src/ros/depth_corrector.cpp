@@ -16,12 +16,17 @@ auto rowOf(ImageT& image, std::uint32_t v) {
   return reinterpret_cast<Pixel*>(&image.data[std::size_t{v} * image.step]);
 }
 
+/// @return a pixel of so many millimetres; 0 where 16 bits do not hold them.
+std::uint16_t asPixel(float millimetres) {
+  constexpr float kMost = std::numeric_limits<std::uint16_t>::max();
+  const float z = std::nearbyint(millimetres);
+  return 0.0F < z && z <= kMost ? static_cast<std::uint16_t>(z) : 0;
+}
+
 void correctRow(const std::uint16_t* from, std::uint32_t width, float scale, float offset,
                 std::uint16_t* to) {
-  constexpr float kMost = std::numeric_limits<std::uint16_t>::max();
   for (std::uint32_t u = 0; u < width; ++u) {
-    const float z = std::nearbyint(scale * static_cast<float>(from[u]) + offset);
-    to[u] = from[u] != 0 && 0.0F < z && z <= kMost ? static_cast<std::uint16_t>(z) : 0;
+    to[u] = from[u] != 0 ? asPixel(scale * static_cast<float>(from[u]) + offset) : 0;
   }
 }
 
@@ -62,7 +67,6 @@ sensor_msgs::ImagePtr DepthCorrector::correct(const sensor_msgs::ImagePtr& depth
 }
 
 void DepthCorrector::correctPixels(sensor_msgs::Image& image) {
-  constexpr float kMost = std::numeric_limits<std::uint16_t>::max();
   const std::lock_guard<std::mutex> lock(pixels_mutex_);
   const DepthView corrected =
       pixels_->correct({rowOf(std::as_const(image), 0), static_cast<int>(image.width),
@@ -70,10 +74,7 @@ void DepthCorrector::correctPixels(sensor_msgs::Image& image) {
   for (std::uint32_t v = 0; v < image.height; ++v) {
     const float* from = corrected.row<float>(static_cast<int>(v));
     std::uint16_t* to = rowOf(image, v);
-    for (std::uint32_t u = 0; u < image.width; ++u) {
-      const float z = std::nearbyint(1000.0F * from[u]);
-      to[u] = 0.0F < z && z <= kMost ? static_cast<std::uint16_t>(z) : 0;
-    }
+    for (std::uint32_t u = 0; u < image.width; ++u) to[u] = asPixel(1000.0F * from[u]);
   }
 }
 

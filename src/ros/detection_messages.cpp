@@ -10,19 +10,13 @@
 namespace dominant_plane_detection {
 namespace {
 
-geometry_msgs::Vector3 vectorMessage(const Eigen::Vector3d& vector) {
-  geometry_msgs::Vector3 message;
+/// @return a message that has x, y and z.
+template <typename Message>
+Message asMessage(const Eigen::Vector3d& vector) {
+  Message message;
   message.x = vector.x();
   message.y = vector.y();
   message.z = vector.z();
-  return message;
-}
-
-geometry_msgs::Point pointMessage(const Eigen::Vector3d& point) {
-  geometry_msgs::Point message;
-  message.x = point.x();
-  message.y = point.y();
-  message.z = point.z();
   return message;
 }
 
@@ -51,6 +45,11 @@ std_msgs::ColorRGBA colourOf(PlaneKind kind) {
   return colour(1.0F, 1.0F, 1.0F, 1.0F);
 }
 
+void setCovariance(const Eigen::Matrix4d& covariance, DominantPlane& message) {
+  // Symmetric, so Eigen's column-major order is the message's row-major one.
+  std::copy_n(covariance.data(), message.covariance.size(), message.covariance.begin());
+}
+
 /// @return mono8, without its pixels.
 sensor_msgs::ImagePtr byteImage(const std_msgs::Header& header, const Detection& detection) {
   auto message = boost::make_shared<sensor_msgs::Image>();
@@ -70,10 +69,9 @@ DominantPlanePtr planeMessage(const std_msgs::Header& header, const Detection& d
   message->header = header;
   message->state = static_cast<std::uint8_t>(detection.state);
   message->reason = detection.reason;
-  message->normal = vectorMessage(detection.normal);
+  message->normal = asMessage<geometry_msgs::Vector3>(detection.normal);
   message->distance = detection.distance;
-  // Symmetric, so Eigen's column-major order is the message's row-major one.
-  std::copy_n(detection.covariance.data(), message->covariance.size(), message->covariance.begin());
+  setCovariance(detection.covariance, *message);
   message->mean_square_error = detection.mean_square_error;
   message->inliers = static_cast<std::uint32_t>(detection.inliers);
   message->inlier_share = static_cast<float>(detection.inlierShare());
@@ -92,9 +90,9 @@ DominantPlaneArrayPtr planesMessage(const std_msgs::Header& header, const Detect
   message->kinds.push_back(DominantPlaneArray::FLOOR);
   for (const FurtherPlane& further : detection.further_planes) {
     DominantPlane plane = message->planes.front();
-    plane.normal = vectorMessage(further.normal);
+    plane.normal = asMessage<geometry_msgs::Vector3>(further.normal);
     plane.distance = further.distance;
-    std::copy_n(further.covariance.data(), plane.covariance.size(), plane.covariance.begin());
+    setCovariance(further.covariance, plane);
     plane.mean_square_error = further.mean_square_error;
     plane.inliers = static_cast<std::uint32_t>(further.inliers);
     plane.inlier_share = static_cast<float>(static_cast<double>(further.inliers) /
@@ -210,7 +208,7 @@ visualization_msgs::MarkerArrayPtr markersMessage(const std_msgs::Header& header
   sheet.scale.x = sheet.scale.y = sheet.scale.z = 1.0;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     for (const Eigen::Vector3d& corner : {middle, outline[i], outline[(i + 1) % outline.size()]}) {
-      sheet.points.push_back(pointMessage(corner));
+      sheet.points.push_back(asMessage<geometry_msgs::Point>(corner));
     }
   }
   Marker& arrow = add("normal", Marker::ARROW);
@@ -219,7 +217,8 @@ visualization_msgs::MarkerArrayPtr markersMessage(const std_msgs::Header& header
   arrow.scale.y = 0.05;  // [m] of the head
   if (!outline.empty()) {
     constexpr double kLength = 0.3;  // [m]
-    arrow.points = {pointMessage(middle), pointMessage(middle + kLength * detection.normal)};
+    arrow.points = {asMessage<geometry_msgs::Point>(middle),
+                    asMessage<geometry_msgs::Point>(middle + kLength * detection.normal)};
   }
   return message;
 }
@@ -239,7 +238,8 @@ void addFurtherPlanes(const std_msgs::Header& header, const Detection& detection
     line.lifetime = ros::Duration(0.5);
     line.scale.x = 0.02;  // [m]
     line.color = colourOf(detection.further_planes[i].kind);
-    for (const Eigen::Vector3d& corner : outlines[i]) line.points.push_back(pointMessage(corner));
+    for (const Eigen::Vector3d& corner : outlines[i])
+      line.points.push_back(asMessage<geometry_msgs::Point>(corner));
     line.points.push_back(line.points.front());
     markers.markers.push_back(line);
   }

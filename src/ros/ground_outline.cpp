@@ -71,8 +71,7 @@ std::vector<std::vector<Eigen::Vector3d>> furtherOutlines(const Detection& detec
   for (const FurtherPlane& plane : detection.further_planes) {
     ++number;
     const auto pixels = rowEnds(detection, [&](int u, int v) {
-      return detection.plane_index[static_cast<std::size_t>(v * detection.image_width + u)] ==
-             number;
+      return detection.plane_index[detection.indexOf(u, v)] == number;
     });
     outlines.push_back(outlineOf(plane.normal, plane.distance, pixels, rays));
   }

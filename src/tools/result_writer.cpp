@@ -1,12 +1,12 @@
 #include "result_writer.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <iomanip>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 
+#include "calibration/median.h"
 #include "depth_summary.h"
 #include "png_files.h"
 #include "ros/overlay.h"
@@ -119,12 +119,7 @@ std::string ResultWriter::summary() const {
   std::ostringstream text;
   text << ms_.size() << " images";
   for (const auto& [state, outcome] : outcomes_) text << ", " << outcome.images << ' ' << state;
-  if (!ms_.empty()) {
-    std::vector<double> sorted = ms_;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    text << std::setprecision(3) << ", median " << *middle << " ms";
-  }
+  if (!ms_.empty()) text << std::setprecision(3) << ", median " << median(ms_) << " ms";
   for (const auto& [state, outcome] : outcomes_) {
     if (!outcome.first_reason.empty()) text << '\n' << state << ": " << outcome.first_reason;
   }

@@ -81,7 +81,7 @@ class FixedError : public testing::Test {
  protected:
   /// @return [1/m]
   static double pattern(double u, double v) {
-    return 0.004 * std::sin(u / 70.0) * std::cos(v / 50.0) + 0.003 * std::cos(u / 200.0 + v / 90.0);
+    return 0.004 * fixedError(u, v) + 0.003 * std::cos(u / 200.0 + v / 90.0);
   }
   /// @return a floor as the camera reads it.
   OwnedDepth<float> sense(const Eigen::Vector3d& up, double height, double strength, double white,
@@ -89,13 +89,8 @@ class FixedError : public testing::Test {
     std::mt19937 generator(seed);
     std::normal_distribution<double> gauss(0.0, white);
     OwnedDepth<float> depth = planeDepth(camera_, up, height);
-    for (int v = 0; v < 480; ++v) {
-      for (int u = 0; u < 640; ++u) {
-        float& z = depth.at(u, v);
-        const double error = strength * pattern(u, v) + gauss(generator);
-        if (z > 0.0F) z = static_cast<float>(1.0 / (1.0 / static_cast<double>(z) + error));
-      }
-    }
+    shiftInverseDepth(depth,
+                      [&](int u, int v) { return strength * pattern(u, v) + gauss(generator); });
     return depth;
   }
   void add(FloorCorrection& correction, int images, double strength, double white) {

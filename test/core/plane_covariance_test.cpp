@@ -233,11 +233,9 @@ TEST(PlaneCovariance, IsUnknownWhereTilesDoNotDetermineAPlane) {
   const SensedFloor floor(testCamera());
   PlaneCovariance covariance;
   std::vector<std::uint8_t> none(floor.tiles().count.size(), 0);
-  EXPECT_EQ(covariance.estimate(floor.tiles(), none, kFloor, kKinect, 640),
-            Detection::unknownCovariance());
+  EXPECT_EQ(covariance.estimate(floor.tiles(), none, kFloor, kKinect, 640), unknownCovariance());
   none[static_cast<std::size_t>(50 * floor.tiles().columns + 40)] = 1;
-  EXPECT_EQ(covariance.estimate(floor.tiles(), none, kFloor, kKinect, 640),
-            Detection::unknownCovariance());
+  EXPECT_EQ(covariance.estimate(floor.tiles(), none, kFloor, kKinect, 640), unknownCovariance());
 }
 
 /// What is off the plane, such as the foot of a box in a tile at the ground's rim, does not say how
@@ -268,11 +266,11 @@ TEST_P(DetectorAlgorithm, TellsHowSureThePlaneIs) {
   // The profile's wide error is 11 mm at 1 m.
   EXPECT_LT(std::sqrt(detection.covariance(3, 3)), 0.05);
   const OwnedDepth<std::uint16_t> empty(640, 480);
-  EXPECT_EQ(detector.detect(empty.view(), camera).covariance, Detection::unknownCovariance());
+  EXPECT_EQ(detector.detect(empty.view(), camera).covariance, unknownCovariance());
 
   parameters_.covariance = false;
   DominantPlaneDetector unasked(parameters_);
-  EXPECT_EQ(unasked.detect(depth.view(), camera).covariance, Detection::unknownCovariance());
+  EXPECT_EQ(unasked.detect(depth.view(), camera).covariance, unknownCovariance());
 }
 INSTANTIATE_TEST_SUITE_P(Both, DetectorAlgorithm,
                          testing::Values(Algorithm::kGrid, Algorithm::kKdtree));

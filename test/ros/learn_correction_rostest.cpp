@@ -36,13 +36,7 @@ class LearnCorrection : public Nodelet {
   static sensor_msgs::Image floor(int number, double size) {
     OwnedDepth<float> depth =
         planeDepth(testCamera(), upOf(0.5 + 0.005 * number, 0.1), 0.7 + 0.005 * number);
-    for (int v = 0; v < 480; ++v) {
-      for (int u = 0; u < 640; ++u) {
-        float& z = depth.at(u, v);
-        const double error = size * std::sin(u / 70.0) * std::cos(v / 50.0);
-        if (z > 0.0F) z = static_cast<float>(1.0 / (1.0 / static_cast<double>(z) + error));
-      }
-    }
+    shiftInverseDepth(depth, [&](int u, int v) { return size * fixedError(u, v); });
     return message(inMillimetres(depth));
   }
 

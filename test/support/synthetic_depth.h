@@ -71,6 +71,22 @@ inline OwnedDepth<float> planeDepth(const CameraModel& camera, const Eigen::Vect
   return depth;
 }
 
+/// Adds an error to the inverse depth of the readings.
+/// @param error [1/m] of the pixel (u, v).
+template <typename Error>
+void shiftInverseDepth(OwnedDepth<float>& depth, Error&& error) {
+  for (int v = 0; v < depth.height; ++v) {
+    for (int u = 0; u < depth.width; ++u) {
+      float& z = depth.at(u, v);
+      const double shift = error(u, v);
+      if (z > 0.0F) z = static_cast<float>(1.0 / (1.0 / static_cast<double>(z) + shift));
+    }
+  }
+}
+
+/// [1/m] An error that is fixed to the pixels, bumps some hundred pixels wide and 1 high.
+inline double fixedError(double u, double v) { return std::sin(u / 70.0) * std::cos(v / 50.0); }
+
 /// The same in millimetres, as a sensor gives it.
 /// @param sigma_z2 [1/m] standard deviation of the readings per squared depth.
 inline OwnedDepth<std::uint16_t> inMillimetres(const OwnedDepth<float>& depth,

@@ -37,15 +37,13 @@ class CalibrateFloor : public testing::Test {
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
   /// @param size [1/m] of the error.
-  static void write(const OwnedDepth<float>& floor, double size, const std::string& file) {
-    cv::Mat depth(480, 640, CV_16UC1, cv::Scalar(0));
+  static void write(OwnedDepth<float> floor, double size, const std::string& file) {
+    shiftInverseDepth(floor, [&](int u, int v) { return size * fixedError(u, v); });
+    cv::Mat depth(480, 640, CV_16UC1);
     for (int v = 0; v < 480; ++v) {
       for (int u = 0; u < 640; ++u) {
-        const auto z = static_cast<double>(floor.pixels[static_cast<std::size_t>(v * 640 + u)]);
-        if (!(z > 0.0)) continue;
-        const double error = size * std::sin(u / 70.0) * std::cos(v / 50.0);
         depth.at<std::uint16_t>(v, u) =
-            static_cast<std::uint16_t>(std::lround(5000.0 / (1.0 / z + error)));
+            static_cast<std::uint16_t>(std::lround(5000.0F * floor.at(u, v)));
       }
     }
     cv::imwrite(file, depth);
