@@ -46,7 +46,7 @@ void gridSearch(benchmark::State& state) {
   for (auto _ : state) {
     PlaneSelection result = selection();
     Effort effort;
-    search.run({tiles, scene().camera, 400}, Parameters(), result, effort);
+    search.run({tiles, scene().camera, 400}, Parameters(), std::nullopt, result, effort);
     benchmark::DoNotOptimize(effort);
   }
 }

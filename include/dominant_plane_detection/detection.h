@@ -51,7 +51,7 @@ enum class UpSource : std::uint8_t { kNone = 0, kFixed, kImu, kTf };
 
 /// [#] The work that a detection took. Counts, never times: the same image takes the same.
 struct Effort {
-  std::size_t seeds = 0;     ///< that were tried
+  std::size_t seeds = 0;     ///< that were tried; a predicted plane is one
   std::size_t regions = 0;   ///< that were grown
   std::size_t tests = 0;     ///< of candidates: tiles (grid) or points (kdtree)
   std::size_t joined = 0;    ///< of these, those that joined a region
@@ -94,6 +94,7 @@ struct Detection {
   std::size_t inliers = 0;
   std::size_t valid_pixels = 0;  ///< [px] with a reading within the range limits
   UpSource up_source = UpSource::kNone;
+  bool tracked = false;  ///< the predicted plane of the prior led to it
   Effort effort;
   int image_width = 0;               ///< [px]
   int image_height = 0;              ///< [px]

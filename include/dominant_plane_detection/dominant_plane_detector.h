@@ -1,27 +1,14 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
-#include <optional>
 
 #include "dominant_plane_detection/camera_model.h"
 #include "dominant_plane_detection/depth_image.h"
 #include "dominant_plane_detection/detection.h"
 #include "dominant_plane_detection/parameters.h"
+#include "dominant_plane_detection/prior.h"
 
 namespace dominant_plane_detection {
-
-/// What is known about the plane of one image before looking; whatever is not given comes from the
-/// parameters.
-struct Prior {
-  struct HeightRange {
-    double min;  ///< [m]
-    double max;  ///< [m]
-  };
-  std::optional<Eigen::Vector3d> expected_up;  ///< [-] in the optical frame, of any length
-  UpSource up_source = UpSource::kNone;        ///< where expected_up came from
-  std::optional<HeightRange> height_range;     ///< [m] camera height over the plane
-};
 
 /// Finds the dominant plane of depth images and labels every pixel by it.
 ///

@@ -14,6 +14,13 @@ enum class Algorithm : std::uint8_t {
   kKdtree,  ///< Algorithm 1 point by point, as published
 };
 
+/// Which of several planes that could be the ground is it, where its height is not known.
+enum class Preference : std::uint8_t {
+  kAuto,     ///< the lowest where up is known by tf or gravity, otherwise the largest
+  kLargest,  ///< the one with the most pixels
+  kLowest,   ///< the lowest within 10 degrees of up that holds 8 % of the valid pixels
+};
+
 /// Everything that can be set about the detection. Names, order, ranges and texts for users stand
 /// once, in parameter_table.h.
 struct Parameters {
@@ -44,6 +51,7 @@ struct Parameters {
   bool covariance = true;      ///< of normal and distance
   int min_patch = 400;         ///< [px] smallest connected piece of ground, of 640 x 480 pixels
   double min_share = 0.05;     ///< [-] smallest plane, as a share of the valid pixels
+  Preference prefer = Preference::kAuto;
   Eigen::Vector3d expected_up{0.0, -1.0, 0.0};  ///< [-] in the optical frame, of any length
   double max_tilt = 1.05;    ///< [rad] largest angle between normal and expected up
   double min_height = 0.0;   ///< [m] lowest camera height over the plane

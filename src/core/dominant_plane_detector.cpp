@@ -12,6 +12,7 @@
 #include "core/kdtree_search.h"
 #include "core/missing_ground.h"
 #include "core/plane_covariance.h"
+#include "core/plane_fusion.h"
 #include "core/plane_inventory.h"
 #include "core/plane_selection.h"
 #include "core/ray_table.h"
@@ -22,6 +23,9 @@ namespace {
 
 /// [px] Larger images come from no depth camera, but from broken headers.
 constexpr int kMaxSide = 8192;
+/// What the lowest plane is looked for among: level ones, large enough to be one.
+constexpr double kLevelTilt = 0.1745;  // [rad] 10 degrees
+constexpr double kLowestShare = 0.08;  // [-] of the valid pixels
 
 using Sentence = std::array<char, 256>;
 
@@ -72,6 +76,24 @@ bool check(const DepthView& depth, const CameraModel& camera, const Prior& prior
   if (!(up_length > 1e-3 && std::isfinite(up_length))) {
     return refuse("Expected an up direction, got a vector of length %g.", up_length);
   }
+  if (!(prior.up_error >= 0.0)) {
+    return refuse("Expected an error of up of 0 rad or more, got %g.", prior.up_error);
+  }
+  if (prior.expected_height &&
+      !(prior.expected_height->height > 0.0 && prior.expected_height->tolerance >= 0.0)) {
+    return refuse("Expected a positive height and its tolerance, got %g and %g m.",
+                  prior.expected_height->height, prior.expected_height->tolerance);
+  }
+  if (prior.predicted_plane) {
+    const Prior::PredictedPlane& plane = *prior.predicted_plane;
+    if (!(std::abs(plane.normal.norm() - 1.0) < 1e-3 && plane.distance >= 0.0 &&
+          std::isfinite(plane.distance) && plane.weight >= 0.0 && plane.weight < 1.0)) {
+      return refuse(
+          "Expected a predicted plane with a unit normal, a distance >= 0 and a weight below 1, got "
+          "a normal of length %g, %g m and %g.",
+          plane.normal.norm(), plane.distance, plane.weight);
+    }
+  }
   if (prior.height_range && !(prior.height_range->min < prior.height_range->max)) {
     return refuse("Expected a height range that ascends, got %g to %g m.", prior.height_range->min,
                   prior.height_range->max);
@@ -107,7 +129,7 @@ class DominantPlaneDetector::Implementation {
     }
 
     PlaneSelection selection(limits(prior));
-    search(input, selection);
+    search(input, prior, selection);
     if (detection_.effort.seeds == 0) {
       std::snprintf(sentence.data(), sentence.size(),
                     "%zu pixels have a reading, too few or too scattered for a region to start.",
@@ -118,14 +140,19 @@ class DominantPlaneDetector::Implementation {
       selection.explain(detection_.effort.seeds, sentence);
       return refuse(selection.refusal(), sentence);
     }
-    return accept(input, selection);
+    return accept(input, prior, selection);
   }
 
  private:
-  void search(const ImageInput& input, PlaneSelection& selection) {
+  void search(const ImageInput& input, const Prior& prior, PlaneSelection& selection) {
+    std::optional<HessePlane> predicted;
+    if (prior.predicted_plane) {
+      predicted = HessePlane{-prior.predicted_plane->normal, prior.predicted_plane->distance};
+    }
     const GridSearch::Image image{tiles_, rays_.camera(), minPatch()};
     if (parameters_.algorithm == Algorithm::kGrid) {
-      grid_.run(image, parameters_, selection, detection_.effort);
+      grid_.run(image, parameters_, predicted, selection, detection_.effort);
+      detection_.tracked = selection.found() && grid_.tracked();
       return;
     }
     kdtree_.run(input, parameters_, selection, detection_.effort);
@@ -161,6 +188,7 @@ class DominantPlaneDetector::Implementation {
     detection_.mean_square_error = kNaN;
     detection_.inliers = 0;
     detection_.valid_pixels = 0;
+    detection_.tracked = false;
     detection_.effort = Effort();
     detection_.further_planes.clear();
     detection_.plane_index.clear();
@@ -172,11 +200,25 @@ class DominantPlaneDetector::Implementation {
 
   PlaneLimits limits(const Prior& prior) const {
     const auto valid = static_cast<double>(detection_.valid_pixels);
-    return {
+    PlaneLimits limits{
         prior.expected_up.value_or(parameters_.expected_up).normalized(), parameters_.max_tilt,
         prior.height_range ? prior.height_range->min : parameters_.min_height,
         prior.height_range ? prior.height_range->max : parameters_.max_height,
         std::max(static_cast<std::size_t>(std::ceil(parameters_.min_share * valid)), minPatch())};
+    limits.expected_height = prior.expected_height;
+    if (prefersLowest(prior)) {
+      limits.max_tilt = std::min(limits.max_tilt, kLevelTilt + prior.up_error);
+      limits.lowest_from =
+          std::max(static_cast<std::size_t>(std::ceil(kLowestShare * valid)), limits.min_points);
+    }
+    return limits;
+  }
+
+  bool prefersLowest(const Prior& prior) const {
+    const bool known = prior.expected_up && (prior.up_source == UpSource::kImu ||
+                                             prior.up_source == UpSource::kTf);
+    return parameters_.prefer == Preference::kLowest ||
+           (parameters_.prefer == Preference::kAuto && known);
   }
 
   SegmentationLimits segmentationLimits() const {
@@ -188,6 +230,7 @@ class DominantPlaneDetector::Implementation {
 
   const Detection& refuse(State state, const Sentence& sentence) {
     detection_.state = state;
+    detection_.tracked = false;
     detection_.reason.assign(sentence.data());
     detection_.valid_pixels = 0;
     detection_.labels.assign(static_cast<std::size_t>(detection_.image_width) *
@@ -196,7 +239,8 @@ class DominantPlaneDetector::Implementation {
     return detection_;
   }
 
-  const Detection& accept(const ImageInput& input, const PlaneSelection& selection) {
+  const Detection& accept(const ImageInput& input, const Prior& prior,
+                          const PlaneSelection& selection) {
     const HessePlane& plane = selection.plane();
     const Eigen::Vector3d normal = -plane.normal;
     const SegmentationCounts counts =
@@ -226,7 +270,17 @@ class DominantPlaneDetector::Implementation {
       detection_.covariance = covariance_.estimate(tiles_, grid_.ground(), plane,
                                                    errorSizes(parameters_), input.depth.width);
     }
+    if (detection_.tracked) smooth(*prior.predicted_plane);
     return detection_;
+  }
+
+  /// Labels and error stay those of what is seen.
+  void smooth(const Prior::PredictedPlane& predicted) {
+    const UncertainPlane fused =
+        fuse({detection_.normal, detection_.distance, detection_.covariance}, predicted);
+    detection_.normal = fused.normal;
+    detection_.distance = fused.distance;
+    detection_.covariance = fused.covariance;
   }
 
   Parameters parameters_;

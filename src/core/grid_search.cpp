@@ -8,7 +8,8 @@
 
 namespace dominant_plane_detection {
 
-void GridSearch::run(const Image& image, const Parameters& parameters, PlaneSelection& selection,
+void GridSearch::run(const Image& image, const Parameters& parameters,
+                     const std::optional<HessePlane>& predicted, PlaneSelection& selection,
                      Effort& effort) {
   selection_ = &selection;
   effort_ = &effort;
@@ -16,11 +17,15 @@ void GridSearch::run(const Image& image, const Parameters& parameters, PlaneSele
   growth_.start(image.tiles, tileAngle(image.camera));
   order_.build(tiles_->columns, tiles_->rows, {image.camera.fx, image.camera.fy},
                selection.limits().expected_up);
-  search(parameters, Seeds::kPromising);
+  begin(Seeds::kPromising);
+  tracked_ = false;
+  if (predicted) tryPrediction(*predicted);
+  search(parameters);
   if (selection.found() || effort.seeds == 0) return;
   // Walls may have taken all the seeds; and to say why there is no ground, the planes that are none
   // have to be looked at.
-  search(parameters, Seeds::kAll);
+  begin(Seeds::kAll);
+  search(parameters);
 }
 
 void GridSearch::start(const Image& image, const Parameters& parameters) {
@@ -36,7 +41,7 @@ void GridSearch::start(const Image& image, const Parameters& parameters) {
   other_.assign(tiles_->count.size(), 0);
 }
 
-void GridSearch::search(const Parameters& parameters, Seeds seeds) {
+void GridSearch::begin(Seeds seeds) {
   seeds_ = seeds;
   std::fill(taken_.begin(), taken_.end(), std::uint8_t{0});
   seeded_.assign(tiles_->count.size(), 0);
@@ -44,9 +49,41 @@ void GridSearch::search(const Parameters& parameters, Seeds seeds) {
   for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
     if (available(tile)) available_points_ += static_cast<std::size_t>(tiles_->count[tile]);
   }
+}
+
+void GridSearch::search(const Parameters& parameters) {
   draw_.restart(static_cast<std::uint32_t>(parameters.random_seed));
   effort_->seeds +=
       searchSeeds(order_, static_cast<std::size_t>(parameters.seeds), *selection_, draw_, *this);
+}
+
+/// Instead of a region that is grown from a seed, looks at what lies on the plane and hangs together
+/// with the middle of it; all else is as with any region.
+void GridSearch::tryPrediction(const HessePlane& plane) {
+  constexpr double kMiddle = 2.0;  // [m] of the range, see `PlaneFrame`
+  judge_.setPlane(plane, kMiddle * Eigen::Vector3d::UnitZ());
+  judge_.judgeAll();
+  predicted_tiles_.clear();
+  std::size_t points = 0;
+  for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
+    if (!judge_.onPlane(tile)) continue;
+    predicted_tiles_.push_back(tile);
+    points += static_cast<std::size_t>(tiles_->count[tile]);
+  }
+  if (predicted_tiles_.empty()) return;
+  const std::size_t middle = predicted_tiles_[predicted_tiles_.size() / 2];
+  predicted_tiles_.assign(1, middle);
+  const TileRegion& together = growth_.surround(judge_, predicted_tiles_, taken_);
+  effort_->joined += together.tiles.size();
+  // A piece of the plane is no better a beginning than a seed.
+  if (together.points < points / 2 || together.points < selection_->minPoints() / 2) return;
+  ++effort_->seeds;
+  ++effort_->regions;
+  predicted_region_ = together;
+  predicted_region_.plane = plane;
+  predicted_ = true;
+  finishRegion(predicted_region_);
+  predicted_ = false;
 }
 
 void GridSearch::collectGround(const Image& image, const Parameters& parameters,
@@ -138,6 +175,7 @@ void GridSearch::finishSurface(const SurfacePlane& surface, bool is_level) {
   if (verdict != State::kFound && seeds_ == Seeds::kPromising) return;
   for (const std::size_t tile : region_.tiles) take(tile);
   if (!selection_->tookLast()) return;
+  tracked_ = predicted_;
   ground_ = ground_tiles_.ground();
   if (is_level) {
     placeOtherSurfaces();

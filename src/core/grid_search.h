@@ -30,9 +30,10 @@ class GridSearch : private RegionSource {
     std::size_t min_piece;  ///< [px] smallest piece that joins a region beyond a gap
   };
 
+  /// @param predicted where the plane should be, if that is known; looked at before any seed.
   /// @param effort is added to.
-  void run(const Image& image, const Parameters& parameters, PlaneSelection& selection,
-           Effort& effort);
+  void run(const Image& image, const Parameters& parameters,
+           const std::optional<HessePlane>& predicted, PlaneSelection& selection, Effort& effort);
 
   /// Collects the ground of a region that was found otherwise.
   /// @param region tiles with points of it, each once.
@@ -42,6 +43,8 @@ class GridSearch : private RegionSource {
   /// @return 1 for the tiles of the selected plane's region, padded like the moments.
   /// @pre the last `run` found a plane, or `collectGround` was called.
   const std::vector<std::uint8_t>& ground() const { return ground_; }
+  /// @return whether the selected plane is the predicted one.
+  bool tracked() const { return tracked_; }
   /// @return kAbove or kBelow for the tiles of the surfaces that it was told from, else 0; padded
   /// like the moments.
   const std::vector<std::uint8_t>& otherSurfaces() const { return other_surfaces_; }
@@ -62,7 +65,9 @@ class GridSearch : private RegionSource {
   };
 
   void start(const Image& image, const Parameters& parameters);
-  void search(const Parameters& parameters, Seeds seeds);
+  void begin(Seeds seeds);
+  void search(const Parameters& parameters);
+  void tryPrediction(const HessePlane& plane);
   bool available(std::size_t tile) const override {
     return tiles_->count[tile] >= kMinReadings && !taken_[tile] && !seeded_[tile];
   }
@@ -85,6 +90,8 @@ class GridSearch : private RegionSource {
   TileGrowth growth_;
   TileRegion region_;                      ///< what was grown, decided again
   std::vector<std::size_t> tiles_so_far_;  ///< of the region, while it is decided again
+  TileRegion predicted_region_;            ///< what is on the predicted plane
+  std::vector<std::size_t> predicted_tiles_;
   TileRegion around_;                      ///< the region and its rim
   SurfaceSplit split_;
   std::array<Parts, kMaxSplits> parts_;
@@ -103,6 +110,8 @@ class GridSearch : private RegionSource {
   std::vector<std::uint8_t> ground_;
   std::vector<std::uint8_t> other_surfaces_;
   Seeds seeds_ = Seeds::kPromising;
+  bool predicted_ = false;  ///< what is looked at is the prediction
+  bool tracked_ = false;
   PlaneSelection* selection_ = nullptr;
   Effort* effort_ = nullptr;
 };

@@ -20,8 +20,13 @@ struct ParameterInfo {
 template <typename T>
 inline constexpr bool kHasLimits = std::is_same_v<T, int> || std::is_same_v<T, double>;
 
-/// What users call the values of `Algorithm`, in their order.
-inline constexpr std::array<const char*, 2> kAlgorithmNames{"grid", "kdtree"};
+/// What users call the values of an enumeration, in their order.
+template <typename Choice>
+inline constexpr std::array<const char*, 0> kChoiceNames{};
+template <>
+inline constexpr std::array<const char*, 2> kChoiceNames<Algorithm>{"grid", "kdtree"};
+template <>
+inline constexpr std::array<const char*, 3> kChoiceNames<Preference>{"auto", "largest", "lowest"};
 
 /// Lets a template take a set of parameters, const or not, and nothing else.
 template <typename T, typename Set>
@@ -33,8 +38,8 @@ using IfParameters = std::enable_if_t<std::is_same_v<std::remove_const_t<T>, Set
 /// here or of a default, scripts/update_parameters writes the .cfg, the YAML file and the README's
 /// table.
 /// @param parameters a `Parameters`, const or not.
-/// @param visit called as visit(ParameterInfo, member) with a member of type Algorithm, bool, int
-/// or double. The text of an Algorithm tells each value: "value: meaning; ...".
+/// @param visit called as visit(ParameterInfo, member) with a member of type bool, int or double,
+/// or an enumeration. The text of an enumeration tells each value: "value: meaning; ...".
 template <typename ParametersT, typename Visitor, IfParameters<ParametersT, Parameters> = 0>
 void visitParameters(ParametersT& parameters, Visitor&& visit) {
   using Info = ParameterInfo;
@@ -124,6 +129,10 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
   visit(
       Info{"min_share", "-", 0, 1, "smallest plane, as a share of the pixels with a trusted depth"},
       p.min_share);
+  visit(Info{"prefer", "-", 0, 2,
+             "auto: lowest where up comes from tf or gravity, otherwise largest; largest: the plane "
+             "with the most pixels; lowest: the lowest one within 10 degrees of up with 8 % of them"},
+        p.prefer);
   visit(Info{"expected_up_x", "-", -1, 1, "expected up direction in the optical frame, x (right)"},
         p.expected_up.x());
   visit(Info{"expected_up_y", "-", -1, 1, "expected up direction in the optical frame, y (down)"},

@@ -38,6 +38,22 @@ inline void parseValue(const ParameterInfo& info, const std::string& text, bool&
   value = yes;
 }
 
+template <typename Choice>
+std::enable_if_t<std::is_enum_v<Choice>> parseValue(const ParameterInfo& info,
+                                                    const std::string& text, Choice& value) {
+  constexpr auto& kNames = kChoiceNames<Choice>;
+  std::string names;
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (text == kNames[i]) {
+      value = static_cast<Choice>(i);
+      return;
+    }
+    names += (i == 0 ? "" : i + 1 == kNames.size() ? " or " : ", ") + std::string(kNames[i]);
+  }
+  throw std::invalid_argument(std::string(info.name) + ": expected " + names + ", got '" + text +
+                              "'");
+}
+
 /// @return one sentence for each number outside its limits.
 template <typename ParametersT>
 std::vector<std::string> findRangeErrors(const ParametersT& parameters) {

@@ -1,19 +1,8 @@
 #include "dominant_plane_detection/parameters.h"
 
-#include <algorithm>
-
 #include "core/parameter_text.h"
 
 namespace dominant_plane_detection {
-
-void parseValue(const ParameterInfo& info, const std::string& text, Algorithm& value) {
-  const auto* const name = std::find(kAlgorithmNames.begin(), kAlgorithmNames.end(), text);
-  if (name == kAlgorithmNames.end()) {
-    throw std::invalid_argument(std::string(info.name) + ": expected grid or kdtree, got '" + text +
-                                "'");
-  }
-  value = static_cast<Algorithm>(name - kAlgorithmNames.begin());
-}
 
 std::vector<std::string> findErrors(const Parameters& p) {
   std::vector<std::string> errors = findRangeErrors(p);

@@ -12,8 +12,8 @@ State PlaneSelection::consider(const HessePlane& plane, std::size_t points, doub
   const State verdict = large ? checkPose(plane) : State::kTooSmall;
   took_last_ = verdict == State::kFound && beatsBest(candidate);
   if (took_last_) {
+    largest_ = isLarger(candidate) ? std::max(largest_, points) : points;
     best_ = candidate;
-    largest_ = std::max(largest_, points);
   } else if (verdict != State::kFound && points > refused_.points) {
     refused_ = candidate;
     refusal_ = verdict;
@@ -21,12 +21,47 @@ State PlaneSelection::consider(const HessePlane& plane, std::size_t points, doub
   return verdict;
 }
 
+PlaneSelection::Rank PlaneSelection::rank(const Candidate& candidate) const {
+  const auto& expected = limits_.expected_height;
+  if (expected &&
+      std::abs(candidate.plane.distance - expected->height) <= expected->tolerance) {
+    return Rank::kExpected;
+  }
+  const bool may_be_lowest = limits_.lowest_from > 0 && candidate.points >= limits_.lowest_from;
+  return may_be_lowest ? Rank::kLowest : Rank::kAny;
+}
+
 bool PlaneSelection::beatsBest(const Candidate& candidate) const {
+  // [m] What differs by less may be one floor: a small piece of it, far off, tells the height below
+  // the camera no better.
+  constexpr double kLevels = 0.1;
+  if (!found()) return true;
+  const Rank ours = rank(candidate), best = rank(best_);
+  if (ours != best) return ours > best;
+  const double lower = candidate.plane.distance - best_.plane.distance;
+  if (ours == Rank::kLowest && std::abs(lower) > kLevels) return lower > 0.0;
+  return isLarger(candidate);
+}
+
+bool PlaneSelection::isLarger(const Candidate& candidate) const {
   constexpr double kLike = 1.25;
   const auto ours = static_cast<double>(candidate.points), best = static_cast<double>(best_.points);
   const bool levels = std::isfinite(candidate.nearest) && std::isfinite(best_.nearest);
   const bool like = ours < kLike * best && static_cast<double>(largest_) < kLike * ours;
   return levels && like ? candidate.nearest < best_.nearest : ours > best;
+}
+
+std::size_t PlaneSelection::toBeat() const {
+  if (!found()) return limits_.min_points;
+  const Rank best = rank(best_);
+  if (limits_.expected_height && best != Rank::kExpected) return limits_.min_points;
+  if (best == Rank::kLowest) return limits_.lowest_from;
+  return std::max(best_.points, limits_.min_points);
+}
+
+bool PlaneSelection::isOpen(std::size_t points) const {
+  if (!found()) return points > 0;
+  return toBeat() < best_.points ? points >= toBeat() : points > best_.points;
 }
 
 bool PlaneSelection::clearlyTooTilted(const HessePlane& plane) const {

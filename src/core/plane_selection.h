@@ -9,6 +9,7 @@
 
 #include "core/hesse_plane.h"
 #include "dominant_plane_detection/detection.h"
+#include "dominant_plane_detection/prior.h"
 
 namespace dominant_plane_detection {
 
@@ -19,10 +20,18 @@ struct PlaneLimits {
   double min_height;            ///< [m]
   double max_height;            ///< [m]
   std::size_t min_points;       ///< [px]
+  /// Of planes that are within the limits, those at this height come first.
+  std::optional<Prior::ExpectedHeight> expected_height = std::nullopt;
+  /// [px] Of planes that have as many, the lowest comes first; the others come behind. 0: the
+  /// largest comes first.
+  std::size_t lowest_from = 0;
 };
 
-/// Keeps the largest plane that is within the limits, of like ones the nearest, and remembers why
-/// the largest one that is not was refused.
+/// Keeps the plane that is most likely the ground of those that are within the limits, and
+/// remembers why the largest one that is not was refused.
+///
+/// At the expected height, or of levels that hardly differ, the largest wins, of like ones the
+/// nearest.
 class PlaneSelection {
  public:
   explicit PlaneSelection(const PlaneLimits& limits) : limits_(limits) {}
@@ -46,7 +55,10 @@ class PlaneSelection {
   std::size_t points() const { return best_.points; }  ///< [px] 0 when nothing was found
   std::size_t minPoints() const { return std::max<std::size_t>(limits_.min_points, 1); }  ///< [px]
   /// @return [px] what a plane needs at least to be selected.
-  std::size_t toBeat() const { return std::max(best_.points, limits_.min_points); }
+  std::size_t toBeat() const;
+  /// @param points [px] that are on no plane yet.
+  /// @return whether a plane among them could be selected.
+  bool isOpen(std::size_t points) const;
 
   /// @return why nothing was found; kNoRegion when no plane was ever considered.
   State refusal() const { return refusal_; }
@@ -60,13 +72,18 @@ class PlaneSelection {
     double nearest = std::numeric_limits<double>::infinity();  ///< [m]
   };
 
+  /// What a plane is likely to be, the best last.
+  enum class Rank { kAny, kLowest, kExpected };
+
+  Rank rank(const Candidate& candidate) const;
   bool beatsBest(const Candidate& candidate) const;
+  bool isLarger(const Candidate& candidate) const;
   State checkPose(const HessePlane& plane) const;
   double tilt(const HessePlane& plane) const;
 
   PlaneLimits limits_;
   Candidate best_;
-  std::size_t largest_ = 0;  ///< [px] of those that ever were the best
+  std::size_t largest_ = 0;  ///< [px] of those that were the best, since one was so for its size
   Candidate refused_;
   bool took_last_ = false;
   State refusal_ = State::kNoRegion;

@@ -8,7 +8,8 @@ namespace dominant_plane_detection {
 
 /// The cells (pixels, tiles) of an image, those of its lower half first: the ground is most likely
 /// there (section III.C). Lower is meant along the up direction, whichever way the camera is
-/// turned.
+/// turned, to the nearest of eight: what is known of up may change a little from image to image,
+/// and seeds with it where two of these meet, no more.
 class SeedOrder {
  public:
   /// Does nothing where all is as it was.
@@ -28,7 +29,7 @@ class SeedOrder {
   int columns_ = 0;
   int rows_ = 0;
   Eigen::Vector2d focal_lengths_ = Eigen::Vector2d::Zero();
-  Eigen::Vector3d up_ = Eigen::Vector3d::Zero();
+  Eigen::Vector2d direction_ = Eigen::Vector2d::Zero();  ///< [-] of up in the image
   std::vector<std::size_t> cells_;
   std::size_t first_group_ = 0;
 };

@@ -26,7 +26,7 @@ class RegionSource {
 };
 
 /// Tries cells as seeds, drawn at random from the lower half of the image and then from the rest,
-/// until `seeds` were tried or no region that is left can be larger than the best. (One that is a
+/// until `seeds` were tried or no region that is left can be better than the best. (One that is a
 /// little smaller and nearer may be left: levels compete as parts of one region.)
 /// @param draw restarted by the caller; its range is set here.
 /// @return [#] seeds tried; 0 when no region could start anywhere.
@@ -37,7 +37,7 @@ inline std::size_t searchSeeds(const SeedOrder& order, std::size_t seeds,
   const auto search_group = [&](std::size_t begin, std::size_t end) {
     draw.setRange(begin, end);
     while (tried < seeds && !draw.empty() && !source.exhausted() &&
-           source.availablePoints() > selection.points()) {
+           selection.isOpen(source.availablePoints())) {
       const std::size_t cell = order.cells()[draw.draw()];
       if (source.available(cell) && source.tryRegion(cell)) ++tried;
     }

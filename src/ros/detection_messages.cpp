@@ -76,7 +76,7 @@ DominantPlanePtr planeMessage(const std_msgs::Header& header, const Detection& d
   message->inliers = static_cast<std::uint32_t>(detection.inliers);
   message->inlier_share = static_cast<float>(detection.inlierShare());
   message->up_source = static_cast<std::uint8_t>(detection.up_source);
-  message->tracked = false;
+  message->tracked = detection.tracked;
   message->processing_time = static_cast<float>(processing_time);
   return message;
 }

@@ -7,8 +7,11 @@
 
 namespace dominant_plane_detection {
 
-inline std::string configValue(Algorithm algorithm) {
-  return kAlgorithmNames[static_cast<std::size_t>(algorithm)];
+inline std::string configValue(Algorithm value) {
+  return kChoiceNames<Algorithm>[static_cast<std::size_t>(value)];
+}
+inline std::string configValue(Preference value) {
+  return kChoiceNames<Preference>[static_cast<std::size_t>(value)];
 }
 
 }  // namespace dominant_plane_detection

@@ -13,6 +13,7 @@ namespace dominant_plane_detection {
 namespace {
 
 const char* typeOf(Algorithm) { return "choice"; }
+const char* typeOf(Preference) { return "choice"; }
 const char* typeOf(const VideoMode&) { return "text"; }
 const char* typeOf(bool) { return "bool"; }
 const char* typeOf(int) { return "int"; }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -178,6 +179,89 @@ TEST(Detector, ThePriorSaysWhereUpIs) {
   EXPECT_EQ(detection.up_source, UpSource::kImu);
 }
 
+/// A floor over an eighth of the image, beyond a table that fills the rest.
+OwnedDepth<std::uint16_t> tableBeforeFloor(const CameraModel& camera) {
+  OwnedDepth<float> depth = planeDepth(camera, kUp, 0.4);
+  OwnedDepth<float> floor = planeDepth(camera, kUp, 1.1);
+  for (int v = 240; v < 400; ++v) {
+    for (int u = 400; u < 640; ++u) depth.at(u, v) = floor.at(u, v);
+  }
+  return inMillimetres(depth);
+}
+
+TEST(Detector, KnowingUpTheLowestLevelPlaneIsTheGround) {
+  const CameraModel camera = testCamera();
+  const auto depth = tableBeforeFloor(camera);
+  const auto distance = [&](Preference prefer, UpSource source) {
+    Parameters parameters;
+    parameters.prefer = prefer;
+    parameters.expected_up = kUp;
+    Prior prior;
+    if (source != UpSource::kFixed) prior.expected_up = kUp;
+    prior.up_source = source;
+    return DominantPlaneDetector(parameters).detect(depth.view(), camera, prior).distance;
+  };
+  for (const UpSource source : {UpSource::kImu, UpSource::kTf}) {
+    EXPECT_NEAR(distance(Preference::kAuto, source), 1.1, 2e-3);
+    EXPECT_NEAR(distance(Preference::kLargest, source), 0.4, 2e-3);
+    EXPECT_NEAR(distance(Preference::kLowest, source), 1.1, 2e-3);
+  }
+  EXPECT_NEAR(distance(Preference::kAuto, UpSource::kFixed), 0.4, 2e-3);
+  EXPECT_NEAR(distance(Preference::kAuto, UpSource::kNone), 0.4, 2e-3);
+  EXPECT_NEAR(distance(Preference::kLowest, UpSource::kFixed), 1.1, 2e-3);
+}
+
+TEST(Detector, TheExpectedHeightSaysWhichLevelPlane) {
+  const CameraModel camera = testCamera();
+  const auto depth = tableBeforeFloor(camera);
+  DominantPlaneDetector detector;
+  for (const double height : {0.4, 1.1}) {
+    Prior prior;
+    prior.expected_up = kUp;
+    prior.up_source = UpSource::kTf;
+    prior.expected_height = Prior::ExpectedHeight{height + 0.05, 0.1};
+    EXPECT_NEAR(detector.detect(depth.view(), camera, prior).distance, height, 2e-3);
+  }
+}
+
+/// The lowest plane has to be level: within 10 degrees and what up may be wrong by.
+TEST(Detector, WhatIsTooTiltedToBeLevelIsNoGround) {
+  const CameraModel camera = testCamera();
+  const auto floor = inMillimetres(planeDepth(camera, kUp, kHeight));
+  DominantPlaneDetector detector;
+  const auto found = [&](double tilt, double error) {
+    Prior prior;
+    prior.expected_up = Eigen::AngleAxisd(tilt, kUp.unitOrthogonal()) * kUp.normalized();
+    prior.up_source = UpSource::kImu;
+    prior.up_error = error;
+    return detector.detect(floor.view(), camera, prior).found();
+  };
+  EXPECT_TRUE(found(0.17, 0.0));
+  EXPECT_FALSE(found(0.18, 0.0));
+  EXPECT_TRUE(found(0.27, 0.1));
+  EXPECT_FALSE(found(0.28, 0.1));
+}
+
+TEST(Detector, APredictionWithAWeightSmoothsTheResult) {
+  const CameraModel camera = testCamera();
+  const auto depth = inMillimetres(planeDepth(camera, kUp, kHeight));
+  DominantPlaneDetector detector;
+  const Detection first = detector.detect(depth.view(), camera);
+  EXPECT_FALSE(first.tracked);
+  Prior prior;
+  prior.predicted_plane =
+      Prior::PredictedPlane{first.normal, first.distance + 0.004, first.covariance, 0.75};
+  const Detection& smoothed = detector.detect(depth.view(), camera, prior);
+  EXPECT_TRUE(smoothed.tracked);
+  EXPECT_NEAR(smoothed.distance, first.distance + 0.003, 1e-4);
+  EXPECT_EQ(smoothed.inliers, first.inliers);
+  prior.predicted_plane->weight = 0.0;
+  EXPECT_NEAR(detector.detect(depth.view(), camera, prior).distance, first.distance, 1e-4);
+  // An image that shows none of it.
+  const auto wall = inMillimetres(planeDepth(camera, {0.0, 0.0, -1.0}, 2.0));
+  EXPECT_FALSE(detector.detect(wall.view(), camera, prior).tracked);
+}
+
 TEST(Detector, BadInputIsExplained) {
   const CameraModel camera = testCamera();
   const auto depth = inMillimetres(planeDepth(camera, kUp, kHeight));
@@ -202,6 +286,21 @@ TEST(Detector, BadInputIsExplained) {
     Prior heights;
     heights.height_range = range;
     expectBad(depth.view(), camera, "height range", heights);
+  }
+  Prior error;
+  error.up_error = kNaN;
+  expectBad(depth.view(), camera, "error of up", error);
+  for (const auto& height : {Prior::ExpectedHeight{0.0, 0.1}, {1.0, kNaN}}) {
+    Prior expected;
+    expected.expected_height = height;
+    expectBad(depth.view(), camera, "positive height", expected);
+  }
+  for (const auto& plane : {Prior::PredictedPlane{kUp, kNaN}, {1.01 * kUp.normalized(), 1.0},
+                            {kUp.normalized(), 1.0, unknownCovariance(), 1.0},
+                            {kUp.normalized(), -1.0}}) {
+    Prior predicted;
+    predicted.predicted_plane = plane;
+    expectBad(depth.view(), camera, "predicted plane", predicted);
   }
   for (const float unit : {0.0F, -0.001F, std::numeric_limits<float>::quiet_NaN(),
                            std::numeric_limits<float>::infinity()}) {

@@ -20,6 +20,7 @@ struct Result {
   PlaneSelection selection;
   Effort effort;
   std::vector<std::uint8_t> ground;
+  bool tracked = false;
 
   std::size_t tiles() const {
     return static_cast<std::size_t>(std::accumulate(ground.begin(), ground.end(), 0));
@@ -28,15 +29,17 @@ struct Result {
 
 template <typename Pixel>
 Result search(const OwnedDepth<Pixel>& depth, const CameraModel& camera,
-              const Parameters& parameters = {}, std::size_t min_points = 500) {
+              const Parameters& parameters = {}, std::size_t min_points = 500,
+              const std::optional<HessePlane>& predicted = std::nullopt) {
   const TileScene scene(depth, camera);
   Result result{PlaneSelection({parameters.expected_up.normalized(), parameters.max_tilt,
                                 parameters.min_height, parameters.max_height, min_points}),
                 {},
                 {}};
   GridSearch grid;
-  grid.run({scene.tiles, camera, 100}, parameters, result.selection, result.effort);
+  grid.run({scene.tiles, camera, 100}, parameters, predicted, result.selection, result.effort);
   if (result.selection.found()) result.ground = grid.ground();
+  result.tracked = grid.tracked();
   return result;
 }
 
@@ -267,7 +270,7 @@ TEST(GridSearch, AnotherLevelIsNoGround) {
     const TileScene scene(depth, camera);
     PlaneSelection selection({-Eigen::Vector3d::UnitY(), 1.05, 0.0, 10.0, 500});
     Effort effort;
-    grid.run({scene.tiles, camera, 100}, {}, selection, effort);
+    grid.run({scene.tiles, camera, 100}, {}, std::nullopt, selection, effort);
     return selection;
   };
   for (const double step : {0.009, -0.009}) {
@@ -413,6 +416,39 @@ TEST(GridSearch, CollectsTheGroundOfAPlane) {
         EXPECT_EQ(grid.ground()[scene.at(column, row)], left || (right && join)) << column;
       }
     }
+  }
+}
+
+/// A floor with a table over two fifths of the image.
+OwnedDepth<float> floorWithTables() {
+  OwnedDepth<float> depth = everywhere(ground(0.9, 1.0));
+  paintTiles(depth, kCamera, ground(0.9, 0.6), [](int column, int) { return column >= 24; });
+  return depth;
+}
+
+TEST(GridSearch, WhatIsPredictedRightlyTakesNoSearch) {
+  const OwnedDepth<float> depth = floorWithTables();
+  const Result searched = search(depth, kCamera);
+  EXPECT_FALSE(searched.tracked);
+  // Half a degree and 5 mm off.
+  const Result followed = search(depth, kCamera, {}, 500, ground(0.9 + 0.5 * kDegree, 1.005));
+  EXPECT_TRUE(followed.tracked);
+  EXPECT_EQ(followed.effort.seeds, 1U);
+  EXPECT_EQ(followed.effort.tests, 0U);  // nothing is grown
+  EXPECT_EQ(followed.ground, searched.ground);
+  EXPECT_LT(angleBetween(followed.selection.plane(), searched.selection.plane()), 1e-6);
+  EXPECT_NEAR(followed.selection.plane().distance, searched.selection.plane().distance, 1e-6);
+}
+
+TEST(GridSearch, WhatIsPredictedWronglyLosesToWhatIsThere) {
+  const OwnedDepth<float> depth = floorWithTables();
+  const Result searched = search(depth, kCamera);
+  // The smaller plane, none at all, one that crosses both.
+  for (const HessePlane& wrong : {ground(0.9, 0.6), ground(0.9, 1.5), ground(0.3, 1.0)}) {
+    const Result followed = search(depth, kCamera, {}, 500, wrong);
+    EXPECT_FALSE(followed.tracked);
+    EXPECT_EQ(followed.ground, searched.ground);
+    EXPECT_NEAR(followed.selection.plane().distance, 1.0, 1e-4);
   }
 }
 

@@ -62,7 +62,8 @@ TEST(Parameters, TheTableIsWhatItWasWhenTheConfigWasWritten) {
     } else if constexpr (std::is_same_v<T, bool>) {
       EXPECT_EQ(found[5], value ? "True" : "False") << info.name;
     } else {
-      EXPECT_EQ(found[5], "\"grid\"") << info.name;
+      const auto name = std::string(kChoiceNames<T>[static_cast<std::size_t>(value)]);
+      EXPECT_EQ(found[5], '"' + name + '"') << info.name;
     }
   });
   EXPECT_EQ(next, std::sregex_iterator());

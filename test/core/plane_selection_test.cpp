@@ -114,5 +114,67 @@ TEST(PlaneSelection, TheReasonIsThatOfTheLargest) {
   EXPECT_EQ(selection.refusal(), State::kOutOfHeightRange);
 }
 
+/// Limits under which the lowest plane wins that has 200 pixels.
+PlaneLimits lowestLimits() {
+  PlaneLimits limits = kLimits;
+  limits.lowest_from = 200;
+  return limits;
+}
+
+TEST(PlaneSelection, TheLowestOfThoseThatAreLargeEnoughWins) {
+  PlaneSelection selection(lowestLimits());
+  EXPECT_TRUE(selection.isOpen(1));
+  selection.consider(plane(0.0, 1.9), 199);  // too small to be more than the largest
+  EXPECT_EQ(selection.toBeat(), 199U);
+  EXPECT_FALSE(selection.isOpen(199));
+  EXPECT_TRUE(selection.isOpen(200));
+  selection.consider(plane(0.0, 0.8), 5000);
+  EXPECT_TRUE(selection.tookLast());
+  EXPECT_EQ(selection.toBeat(), 200U);
+  EXPECT_TRUE(selection.isOpen(200));
+  EXPECT_FALSE(selection.isOpen(199));
+  selection.consider(plane(0.0, 1.5), 200);
+  EXPECT_TRUE(selection.tookLast());
+  selection.consider(plane(0.0, 0.8), 6000);
+  EXPECT_FALSE(selection.tookLast());
+  selection.consider(plane(0.0, 1.9), 199);
+  EXPECT_FALSE(selection.tookLast());
+  EXPECT_EQ(selection.plane().distance, 1.5);
+}
+
+TEST(PlaneSelection, PiecesOfOneFloorHaveAlmostOneHeight) {
+  PlaneSelection selection(lowestLimits());
+  selection.consider(plane(0.0, 1.50), 800);
+  selection.consider(plane(0.0, 1.59), 300);
+  EXPECT_FALSE(selection.tookLast());
+  selection.consider(plane(0.0, 1.41), 900);
+  EXPECT_TRUE(selection.tookLast());
+  selection.consider(plane(0.0, 1.52), 300);
+  EXPECT_TRUE(selection.tookLast());
+}
+
+TEST(PlaneSelection, TheExpectedHeightComesBeforeSizeAndDepth) {
+  for (const bool lowest : {false, true}) {
+    PlaneLimits limits = lowest ? lowestLimits() : kLimits;
+    limits.expected_height = Prior::ExpectedHeight{1.0, 0.1};
+    PlaneSelection selection(limits);
+    selection.consider(plane(0.0, 0.6), 5000);
+    EXPECT_TRUE(selection.tookLast());
+    EXPECT_EQ(selection.toBeat(), 100U);  // any could be at that height
+    EXPECT_TRUE(selection.isOpen(100));
+    EXPECT_FALSE(selection.isOpen(99));
+    selection.consider(plane(0.0, 0.91), 100);
+    EXPECT_TRUE(selection.tookLast());
+    selection.consider(plane(0.0, 1.11), 9000);
+    EXPECT_FALSE(selection.tookLast());
+    selection.consider(plane(0.0, 1.09), 150);
+    EXPECT_TRUE(selection.tookLast());
+    selection.consider(plane(0.0, 1.0), 140);
+    EXPECT_FALSE(selection.tookLast());
+    EXPECT_EQ(selection.toBeat(), 150U);
+    EXPECT_FALSE(selection.isOpen(150));
+  }
+}
+
 }  // namespace
 }  // namespace dominant_plane_detection
