@@ -1,0 +1,139 @@
+#include "prior/mount_check.h"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <cstdio>
+
+namespace dominant_plane_detection {
+namespace {
+
+constexpr double kDegree = 0.0174533;  // [rad]
+constexpr double kWindow = 0.65;       // [s] of images that are averaged
+constexpr std::size_t kFewest = 6;     // [#] of them
+constexpr double kUsualTime = 20.0;    // [s] that the usual difference is averaged over
+constexpr double kUsualFrom = 3.0;     // [s] of images from which on it is known
+constexpr double kRampPatience = 5.0;  // [s]
+/// What an uneven floor and a robot that rocks on it explain, as standard deviations; doors' sills
+/// and tiles are 5 mm high, wheels half a metre apart.
+constexpr double kFloorAngle = 0.6 * kDegree;  // [rad]
+constexpr double kFloorHeight = 0.006;         // [m]
+/// [-] of chi squared with three degrees of freedom: 99.9 %.
+constexpr double kBeyond = 16.27;
+/// A ramp is steeper, and meets the ground as far ahead.
+constexpr double kLeastRamp = 2.0 * kDegree;  // [rad]
+constexpr double kRampNear = 0.5;             // [m]
+constexpr double kRampFar = 5.0;              // [m]
+
+Eigen::Matrix3d unevenFloor() {
+  return Eigen::Vector3d(kFloorAngle * kFloorAngle, kFloorAngle * kFloorAngle,
+                         kFloorHeight * kFloorHeight)
+      .asDiagonal();
+}
+
+double chiSquared(const Eigen::Vector3d& difference, const Eigen::Matrix3d& covariance) {
+  return difference.dot(covariance.inverse() * difference);
+}
+
+/// Rows that turn [normal, distance] in the optical frame into the difference, see `add`.
+Eigen::Matrix<double, 3, 4> toDifference(const Eigen::Matrix3d& R_base_camera) {
+  Eigen::Matrix<double, 3, 4> rows = Eigen::Matrix<double, 3, 4>::Zero();
+  rows.block<1, 3>(0, 0) = R_base_camera.row(1);
+  rows.block<1, 3>(1, 0) = -R_base_camera.row(0);
+  rows(2, 3) = 1.0;
+  return rows;
+}
+
+/// @return whether the plane meets tf's ground so far ahead that it may be a ramp.
+/// @param camera T_base_camera
+bool maybeRamp(const Eigen::Vector3d& difference, const Eigen::Isometry3d& camera) {
+  const Eigen::Vector2d ahead = camera.linear().col(2).head<2>();
+  if (!(ahead.norm() > 0.1)) return false;
+  const Eigen::Vector2d slope(difference.y(), -difference.x());
+  const double rise = slope.dot(ahead.normalized());
+  // Below the camera's place the plane is as far under tf's ground as the camera is higher.
+  const double meets = difference.z() / rise;
+  return std::abs(rise) > kLeastRamp && meets > kRampNear && meets < kRampFar;
+}
+
+}  // namespace
+
+std::string MovedMount::text() const {
+  const Eigen::Vector3d& at = camera.translation();
+  const Eigen::Quaterniond turn(camera.linear());
+  char text[400];
+  std::snprintf(text, sizeof(text),
+                "mount moved: by the ground that is seen the camera is turned by %.1f deg (roll) "
+                "and %.1f deg (pitch) and %.0f mm higher than tf says; from base to optical frame "
+                "it is x y z %.4f %.4f %.4f, quaternion %.5f %.5f %.5f %.5f",
+                difference.roll / kDegree, difference.pitch / kDegree, 1e3 * difference.height,
+                at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w());
+  return text;
+}
+
+MountCheck::Mean MountCheck::meanOf(std::size_t begin, std::size_t end) const {
+  Mean mean;
+  const auto count = static_cast<double>(end - begin);
+  for (std::size_t i = begin; i < end; ++i) {
+    mean.difference += recent_[i].difference / count;
+    // Images in a row err alike: their mean is no surer than each of them.
+    mean.covariance += recent_[i].covariance / count;
+  }
+  return mean;
+}
+
+bool MountCheck::differs(const Mean& mean) const {
+  const bool from_tf = chiSquared(mean.difference, mean.covariance + unevenFloor()) > kBeyond;
+  const bool from_usual =
+      usual_time_ > kUsualFrom && chiSquared(mean.difference - usual_, unevenFloor()) > kBeyond;
+  return from_tf || from_usual;
+}
+
+void MountCheck::learn(const Image& image) {
+  const double since =
+      usual_time_ > 0.0 && recent_.size() > 1 ? recent_[1].stamp - recent_[0].stamp : 1e-3;
+  usual_time_ = std::min(usual_time_ + since, kUsualTime);
+  usual_ += since / usual_time_ * (image.difference - usual_);
+}
+
+void MountCheck::add(double stamp, const Detection& detection, const Eigen::Isometry3d& camera) {
+  if (!recent_.empty() && stamp < recent_.back().stamp) reset();
+  if (!detection.found() || !(detection.covariance(0, 0) >= 0.0)) return;
+  // The rotation that takes the plane's normal to the base's z axis is the camera's in the base.
+  const Eigen::Vector3d normal = camera.linear() * detection.normal;
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond::FromTwoVectors(normal, Eigen::Vector3d::UnitZ());
+  const Eigen::AngleAxisd turned(turn);
+  const Eigen::Vector3d rotation = turned.angle() * turned.axis();
+  const Eigen::Matrix<double, 3, 4> rows = toDifference(camera.linear());
+  recent_.push_back({stamp,
+                     {rotation.x(), rotation.y(), detection.distance - camera.translation().z()},
+                     rows * detection.covariance * rows.transpose()});
+  while (stamp - recent_.front().stamp > kWindow) {
+    if (!since_) learn(recent_.front());
+    recent_.pop_front();
+  }
+  if (recent_.size() < kFewest || stamp - recent_.front().stamp < kWindow / 2.0) return;
+  const std::size_t half = recent_.size() / 2;
+  const Mean mean = meanOf(0, recent_.size());
+  // Both halves: no single image, and no bump.
+  if (!differs(mean) || !differs(meanOf(0, half)) || !differs(meanOf(half, recent_.size()))) {
+    since_.reset();
+    moved_.reset();
+    return;
+  }
+  if (!since_) since_ = stamp;
+  if (maybeRamp(mean.difference, camera) && stamp - *since_ < kRampPatience) return;
+  MovedMount moved;
+  const Eigen::Vector3d change = mean.difference;
+  moved.difference = {change.x(), change.y(), change.z()};
+  moved.camera = camera;
+  const Eigen::Vector3d about(change.x(), change.y(), 0.0);
+  if (about.norm() > 0.0) {
+    moved.camera.linear() =
+        Eigen::AngleAxisd(about.norm(), about.normalized()).toRotationMatrix() * camera.linear();
+  }
+  moved.camera.translation().z() += change.z();
+  moved_ = moved;
+}
+
+}  // namespace dominant_plane_detection
