@@ -89,7 +89,8 @@ bool check(const DepthView& depth, const CameraModel& camera, const Prior& prior
     if (!(std::abs(plane.normal.norm() - 1.0) < 1e-3 && plane.distance >= 0.0 &&
           std::isfinite(plane.distance) && plane.weight >= 0.0 && plane.weight < 1.0)) {
       return refuse(
-          "Expected a predicted plane with a unit normal, a distance >= 0 and a weight below 1, got "
+          "Expected a predicted plane with a unit normal, a distance >= 0 and a weight below 1, "
+          "got "
           "a normal of length %g, %g m and %g.",
           plane.normal.norm(), plane.distance, plane.weight);
     }
@@ -215,8 +216,8 @@ class DominantPlaneDetector::Implementation {
   }
 
   bool prefersLowest(const Prior& prior) const {
-    const bool known = prior.expected_up && (prior.up_source == UpSource::kImu ||
-                                             prior.up_source == UpSource::kTf);
+    const bool known = prior.expected_up &&
+                       (prior.up_source == UpSource::kImu || prior.up_source == UpSource::kTf);
     return parameters_.prefer == Preference::kLowest ||
            (parameters_.prefer == Preference::kAuto && known);
   }

@@ -57,8 +57,8 @@ void GridSearch::search(const Parameters& parameters) {
       searchSeeds(order_, static_cast<std::size_t>(parameters.seeds), *selection_, draw_, *this);
 }
 
-/// Instead of a region that is grown from a seed, looks at what lies on the plane and hangs together
-/// with the middle of it; all else is as with any region.
+/// Instead of a region that is grown from a seed, looks at what lies on the plane and hangs
+/// together with the middle of it; all else is as with any region.
 void GridSearch::tryPrediction(const HessePlane& plane) {
   constexpr double kMiddle = 2.0;  // [m] of the range, see `PlaneFrame`
   judge_.setPlane(plane, kMiddle * Eigen::Vector3d::UnitZ());

@@ -92,7 +92,7 @@ class GridSearch : private RegionSource {
   std::vector<std::size_t> tiles_so_far_;  ///< of the region, while it is decided again
   TileRegion predicted_region_;            ///< what is on the predicted plane
   std::vector<std::size_t> predicted_tiles_;
-  TileRegion around_;                      ///< the region and its rim
+  TileRegion around_;  ///< the region and its rim
   SurfaceSplit split_;
   std::array<Parts, kMaxSplits> parts_;
   /// The split that a tile went to another surface by, counted from the last one to the first, or

@@ -129,10 +129,11 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
   visit(
       Info{"min_share", "-", 0, 1, "smallest plane, as a share of the pixels with a trusted depth"},
       p.min_share);
-  visit(Info{"prefer", "-", 0, 2,
-             "auto: lowest where up comes from tf or gravity, otherwise largest; largest: the plane "
-             "with the most pixels; lowest: the lowest one within 10 degrees of up with 8 % of them"},
-        p.prefer);
+  visit(
+      Info{"prefer", "-", 0, 2,
+           "auto: lowest where up comes from tf or gravity, otherwise largest; largest: the plane "
+           "with the most pixels; lowest: the lowest one within 10 degrees of up with 8 % of them"},
+      p.prefer);
   visit(Info{"expected_up_x", "-", -1, 1, "expected up direction in the optical frame, x (right)"},
         p.expected_up.x());
   visit(Info{"expected_up_y", "-", -1, 1, "expected up direction in the optical frame, y (down)"},

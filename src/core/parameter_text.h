@@ -38,6 +38,10 @@ inline void parseValue(const ParameterInfo& info, const std::string& text, bool&
   value = yes;
 }
 
+inline void parseValue(const ParameterInfo&, const std::string& text, std::string& value) {
+  value = text;
+}
+
 template <typename Choice>
 std::enable_if_t<std::is_enum_v<Choice>> parseValue(const ParameterInfo& info,
                                                     const std::string& text, Choice& value) {

@@ -9,8 +9,8 @@ namespace {
 /// [-] of chi squared with three degrees of freedom: 99 %.
 constexpr double kGate = 11.34;
 
-/// @return rows that turn a change of [normal, distance] into one of (p, q, distance), where p and q
-/// are the normal's along two axes across it.
+/// @return rows that turn a change of [normal, distance] into one of (p, q, distance), where p and
+/// q are the normal's along two axes across it.
 Eigen::Matrix<double, 3, 4> acrossOf(const Eigen::Vector3d& normal) {
   Eigen::Matrix<double, 3, 4> across = Eigen::Matrix<double, 3, 4>::Zero();
   const Eigen::Vector3d axis = normal.unitOrthogonal();
@@ -35,7 +35,8 @@ UncertainPlane fuse(const UncertainPlane& seen, const Prior::PredictedPlane& pre
 
   const double weight = predicted.weight;
   const Eigen::Matrix3d their_information = weight * theirs.inverse();
-  const Eigen::Matrix3d covariance = ((1.0 - weight) * ours.inverse() + their_information).inverse();
+  const Eigen::Matrix3d covariance =
+      ((1.0 - weight) * ours.inverse() + their_information).inverse();
   const Eigen::Vector3d step = covariance * their_information * change;
   const Eigen::Vector4d moved = across.transpose() * step;
   UncertainPlane fused;

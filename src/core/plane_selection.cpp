@@ -23,8 +23,7 @@ State PlaneSelection::consider(const HessePlane& plane, std::size_t points, doub
 
 PlaneSelection::Rank PlaneSelection::rank(const Candidate& candidate) const {
   const auto& expected = limits_.expected_height;
-  if (expected &&
-      std::abs(candidate.plane.distance - expected->height) <= expected->tolerance) {
+  if (expected && std::abs(candidate.plane.distance - expected->height) <= expected->tolerance) {
     return Rank::kExpected;
   }
   const bool may_be_lowest = limits_.lowest_from > 0 && candidate.points >= limits_.lowest_from;

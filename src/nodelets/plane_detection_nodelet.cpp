@@ -45,8 +45,8 @@ void takeProfile(const ros::NodeHandle& node) {
 void PlaneDetectionNodelet::onTimer() {
   // Somebody may have come during the start.
   followListeners();
-  diagnostics_->report(
-      {inputs_->subscribed(), inputs_->counts(), inputs_->problem(), subscription_error_});
+  diagnostics_->report({inputs_->subscribed(), inputs_->counts(), inputs_->problem(),
+                        subscription_error_, prior_->status()});
 }
 
 void PlaneDetectionNodelet::start() {
@@ -61,9 +61,17 @@ void PlaneDetectionNodelet::start() {
   inputs_ = std::make_unique<DetectionInputs>(
       node, private_node, readInputKind(private_node), private_node.param("rectified", false),
       [this](const DetectionInputs::Frame& frame) { onFrame(frame); });
+  const NodeParameters own = loadNodeParameters(private_node);
+  frames_ = std::make_unique<RobotFrames>(node);
+  body_ = std::make_unique<RobotBody>(private_node, own.base_frame, *frames_);
+  prior_ = std::make_unique<PlanePrior>(node, own, *frames_);
+  pictures_ = std::make_unique<PictureInput>(node, private_node, [this] { overlay_->onPicture(); });
   const auto listeners_changed = [this] { followListeners(); };
   outputs_.advertise(private_node, listeners_changed);
-  overlay_ = std::make_unique<OverlayOutput>(node, private_node, listeners_changed);
+  overlay_ = std::make_unique<OverlayOutput>(private_node, *pictures_, listeners_changed);
+  clouds_ =
+      std::make_unique<CloudOutputs>(private_node, own, *frames_, *pictures_, listeners_changed);
+  scan_ = std::make_unique<ScanOutput>(private_node, own, *frames_, listeners_changed);
   mount_service_ = std::make_unique<MountService>(private_node, listeners_changed);
   reconfigure_ = std::make_unique<dynamic_reconfigure::Server<PlaneDetectionConfig>>(private_node);
   reconfigure_->setCallback(
@@ -89,31 +97,49 @@ void PlaneDetectionNodelet::followListeners() {
 
 void PlaneDetectionNodelet::trySubscriptions() {
   const bool wanted = outputs_.anybodyListens() || overlay_->anybodyListens() ||
+                      clouds_->anybodyListens() || scan_->anybodyListens() ||
                       mount_service_->wants() || learner_->wants();
-  if (wanted != inputs_->subscribed()) wanted ? inputs_->subscribe() : inputs_->unsubscribe();
+  if (wanted && !inputs_->subscribed()) {
+    inputs_->subscribe();
+    prior_->subscribe();
+  } else if (!wanted && inputs_->subscribed()) {
+    inputs_->unsubscribe();
+    prior_->unsubscribe();
+  }
   overlay_->followListeners();
+  pictures_->follow(overlay_->anybodyListens() || clouds_->wantPictures());
 }
 
 void PlaneDetectionNodelet::onFrame(const DetectionInputs::Frame& frame) {
   try {
-    if (!correction_) return detect(frame);
-    DetectionInputs::Frame corrected = frame;
-    corrected.depth = correction_->correct(frame.depth);
-    detect(corrected);
+    detect(prepared(frame));
   } catch (const std::exception& error) {
     diagnostics_->countFailure(error.what());
     NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped an image: " << error.what());
   }
 }
 
+/// @return the image without the camera's fixed error and the robot's body.
+DetectionInputs::Frame PlaneDetectionNodelet::prepared(const DetectionInputs::Frame& frame) {
+  DetectionInputs::Frame result = frame;
+  if (correction_) result.depth = correction_->correct(frame.depth);
+  result.depth = body_->mask(result);
+  return result;
+}
+
 void PlaneDetectionNodelet::detect(const DetectionInputs::Frame& frame) {
+  pictures_->beginImage(frame.header.frame_id);
+  const Prior prior = prior_->of(frame);
   const auto start = std::chrono::steady_clock::now();
-  const Detection& detection = detector_.detect(frame.depth, frame.camera);
+  const Detection& detection = detector_.detect(frame.depth, frame.camera, prior);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   diagnostics_->count(detection, time.count());
+  prior_->add(frame, detection);
   mount_service_->add(detection, frame.header.frame_id);
   learner_->add(frame, detection);
   outputs_.publish(frame, detection, time.count());
+  clouds_->publish(frame, detection);
+  scan_->publish(frame, detection, detector_.parameters().range_max);
   overlay_->publish(frame, detection);
 }
 

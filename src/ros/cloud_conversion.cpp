@@ -144,25 +144,48 @@ std::optional<CloudReader::Image> CloudReader::read(const sensor_msgs::PointClou
   return image;
 }
 
-sensor_msgs::PointCloud2Ptr labelledPoints(const DepthView& depth, const RayTable& rays,
-                                           const Detection& detection, Label label) {
+namespace {
+
+void setColour(pcl::PointXYZ&, const cv::Mat*, int, int) {}
+void setColour(pcl::PointXYZRGB& point, const cv::Mat* bgr, int u, int v) {
+  const cv::Vec3b colour = bgr == nullptr ? cv::Vec3b() : bgr->at<cv::Vec3b>(v, u);
+  point.b = colour[0];
+  point.g = colour[1];
+  point.r = colour[2];
+}
+
+template <typename Point>
+sensor_msgs::PointCloud2Ptr pointsOf(const DepthView& depth, const RayTable& rays,
+                                     const Detection& detection, Label label,
+                                     const CloudForm& form) {
   const Eigen::Vector3f normal = detection.normal.cast<float>();
   const auto distance = static_cast<float>(detection.distance);
-  pcl::PointCloud<pcl::PointXYZ> cloud;
-  for (int v = 0; v < detection.image_height; ++v) {
-    for (int u = 0; u < detection.image_width; ++u) {
+  pcl::PointCloud<Point> cloud;
+  for (int v = 0; v < detection.image_height; v += form.stride) {
+    for (int u = 0; u < detection.image_width; u += form.stride) {
       if (detection.label(u, v) != label) continue;
       const Eigen::Vector3f ray = rays.ray(u, v);
       // What was not read is where the plane is.
       const float z =
           label == Label::kMissingGround ? -distance / normal.dot(ray) : metresAt(depth, u, v);
-      const Eigen::Vector3f point = z * ray;
-      cloud.push_back({point.x(), point.y(), point.z()});
+      Point point;
+      point.getVector3fMap() = form.transform * Eigen::Vector3f(z * ray);
+      setColour(point, form.bgr, u, v);
+      cloud.push_back(point);
     }
   }
   auto message = boost::make_shared<sensor_msgs::PointCloud2>();
   pcl::toROSMsg(cloud, *message);
   return message;
+}
+
+}  // namespace
+
+sensor_msgs::PointCloud2Ptr labelledPoints(const DepthView& depth, const RayTable& rays,
+                                           const Detection& detection, Label label,
+                                           const CloudForm& form) {
+  return form.coloured ? pointsOf<pcl::PointXYZRGB>(depth, rays, detection, label, form)
+                       : pointsOf<pcl::PointXYZ>(depth, rays, detection, label, form);
 }
 
 }  // namespace dominant_plane_detection

@@ -2,6 +2,8 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
+#include <Eigen/Geometry>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,9 +35,20 @@ class CloudReader {
   std::vector<float> depth_;
 };
 
+/// What a cloud is like.
+struct CloudForm {
+  int stride = 1;  ///< [px] every n-th point of every n-th row
+  /// T_frame_optical; the identity leaves the points in the optical frame.
+  Eigen::Isometry3f transform = Eigen::Isometry3f::Identity();
+  bool coloured = false;
+  const cv::Mat* bgr = nullptr;  ///< 8-bit colours of the image's size; null: all are black
+};
+
 /// @return the points of the pixels with a label, those of missing ground on the plane, in PCL's
-/// layout of PointXYZ, unorganised and dense. The header is left to the caller.
+/// layout of PointXYZ, or of PointXYZRGB if coloured, unorganised and dense. The header is left to
+/// the caller.
 sensor_msgs::PointCloud2Ptr labelledPoints(const DepthView& depth, const RayTable& rays,
-                                           const Detection& detection, Label label);
+                                           const Detection& detection, Label label,
+                                           const CloudForm& form = CloudForm());
 
 }  // namespace dominant_plane_detection

@@ -74,6 +74,10 @@ void DetectionDiagnostics::summarise(diagnostic_updater::DiagnosticStatusWrapper
                     overtaken, received);
   } else if (period_.planes == 0) {
     status.summary(DiagnosticStatus::WARN, "no plane: " + reason_);
+  } else if (!input_.robot.mount.empty()) {
+    status.summary(DiagnosticStatus::WARN, input_.robot.mount);
+  } else if (!input_.robot.remark.empty()) {
+    status.summary(DiagnosticStatus::WARN, input_.robot.remark);
   } else {
     status.summaryf(DiagnosticStatus::OK, "a plane in %lu of %lu images, %.1f images a second",
                     period_.planes, period_.images, rate());
@@ -87,6 +91,9 @@ void DetectionDiagnostics::addValues(diagnostic_updater::DiagnosticStatusWrapper
   const auto images = static_cast<double>(std::max<std::uint64_t>(period_.images, 1));
   status.addf("time an image, mean [ms]", "%.3f", 1e3 * period_.sum_seconds / images);
   status.addf("time an image, longest [ms]", "%.3f", 1e3 * period_.most_seconds);
+  status.add("up is known by", input_.robot.up_source);
+  status.add("up, what is passed over", input_.robot.remark);
+  status.add("mount", input_.robot.mount);
   status.add("images received", input_.counts.received);
   status.add("dropped images, overtaken by newer ones", input_.counts.overtaken);
   status.add("dropped images, unusable", input_.counts.refused);

@@ -8,6 +8,7 @@
 
 #include "dominant_plane_detection/detection.h"
 #include "ros/detection_inputs.h"
+#include "ros/plane_prior.h"
 
 namespace dominant_plane_detection {
 
@@ -20,6 +21,7 @@ class DetectionDiagnostics {
     DetectionInputs::Counts counts;
     std::string problem;             ///< while nothing comes that can be looked at
     std::string subscription_error;  ///< why nothing is subscribed that is wanted
+    PlanePrior::Status robot;        ///< what the robot knows, and how the plane differs from it
   };
 
   DetectionDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,

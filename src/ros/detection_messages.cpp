@@ -157,6 +157,19 @@ sensor_msgs::ImagePtr heightMessage(const std_msgs::Header& header, const DepthV
   return message;
 }
 
+sensor_msgs::LaserScanPtr scanMessage(const std_msgs::Header& header, const GroundScan& scan) {
+  auto message = boost::make_shared<sensor_msgs::LaserScan>();
+  message->header = header;
+  message->angle_min = static_cast<float>(scan.angle_min);
+  message->angle_increment = static_cast<float>(scan.angle_increment);
+  message->angle_max = scan.ranges.empty() ? message->angle_min
+                                           : static_cast<float>(scan.angle(scan.ranges.size() - 1));
+  message->range_min = static_cast<float>(scan.range_min);
+  message->range_max = static_cast<float>(scan.range_max);
+  message->ranges = scan.ranges;
+  return message;
+}
+
 pcl_msgs::PointIndicesPtr obstacleIndices(const std_msgs::Header& header,
                                           const Detection& detection) {
   auto message = boost::make_shared<pcl_msgs::PointIndices>();

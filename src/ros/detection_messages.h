@@ -6,6 +6,7 @@
 #include <pcl_msgs/ModelCoefficients.h>
 #include <pcl_msgs/PointIndices.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/LaserScan.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <vector>
@@ -13,6 +14,7 @@
 #include "core/ray_table.h"
 #include "dominant_plane_detection/depth_image.h"
 #include "dominant_plane_detection/detection.h"
+#include "navigation/ground_scan.h"
 
 namespace dominant_plane_detection {
 
@@ -43,6 +45,9 @@ sensor_msgs::ImagePtr labelsMessage(const std_msgs::Header& header, const Detect
 /// reading, and everywhere without a plane (REP 118).
 sensor_msgs::ImagePtr heightMessage(const std_msgs::Header& header, const DepthView& depth,
                                     const RayTable& rays, const Detection& detection);
+
+/// @param header in the frame on the ground.
+sensor_msgs::LaserScanPtr scanMessage(const std_msgs::Header& header, const GroundScan& scan);
 
 /// @return the pixels that are obstacles, by their place in the depth image row by row, which is
 /// that in an organised cloud of it.

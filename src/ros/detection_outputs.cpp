@@ -1,11 +1,10 @@
 #include "ros/detection_outputs.h"
 
-#include <sensor_msgs/PointCloud2.h>
-
 #include <algorithm>
 
 #include "ros/detection_messages.h"
 #include "ros/ground_outline.h"
+#include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -27,10 +26,6 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
   planes_ = node.advertise<DominantPlaneArray>(topics::kPlanes, kQueue, changed, changed);
   coefficients_ =
       node.advertise<pcl_msgs::ModelCoefficients>(topics::kCoefficients, kQueue, changed, changed);
-  for (LabelledCloud& cloud : clouds_) {
-    cloud.publisher =
-        node.advertise<sensor_msgs::PointCloud2>(cloud.topic, kQueue, changed, changed);
-  }
   obstacle_indices_ =
       node.advertise<pcl_msgs::PointIndices>(topics::kObstacleIndices, kQueue, changed, changed);
   outline_ =
@@ -46,9 +41,6 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
 
 bool DetectionOutputs::anybodyListens() const {
   const auto listened = [](const auto& publisher) { return publisher.getNumSubscribers() > 0; };
-  const bool to_clouds =
-      std::any_of(clouds_.begin(), clouds_.end(),
-                  [&](const LabelledCloud& cloud) { return listened(cloud.publisher); });
   const auto messages = {&plane_,   &planes_, &coefficients_, &obstacle_indices_,
                          &outline_, &markers_};
   const auto images = {&mask_, &labels_, &plane_index_, &height_image_};
@@ -56,7 +48,7 @@ bool DetectionOutputs::anybodyListens() const {
     return std::any_of(publishers.begin(), publishers.end(),
                        [&](const auto* publisher) { return listened(*publisher); });
   };
-  return to_clouds || any(messages) || any(images);
+  return any(messages) || any(images);
 }
 
 void DetectionOutputs::publish(const DetectionInputs::Frame& frame, const Detection& detection,
@@ -74,7 +66,6 @@ void DetectionOutputs::publish(const DetectionInputs::Frame& frame, const Detect
     obstacle_indices_.publish(obstacleIndices(frame.header, detection));
   }
   publishImages(frame, detection);
-  publishClouds(frame, detection);
   publishShapes(frame, detection);
 }
 
@@ -88,18 +79,6 @@ void DetectionOutputs::publishImages(const DetectionInputs::Frame& frame,
   if (height_image_.getNumSubscribers() > 0) {
     rays_.build(frame.camera);
     height_image_.publish(heightMessage(frame.header, frame.depth, rays_, detection));
-  }
-}
-
-void DetectionOutputs::publishClouds(const DetectionInputs::Frame& frame,
-                                     const Detection& detection) {
-  for (const LabelledCloud& cloud : clouds_) {
-    if (cloud.publisher.getNumSubscribers() == 0) continue;
-    rays_.build(frame.camera);
-    const sensor_msgs::PointCloud2Ptr points =
-        labelledPoints(frame.depth, rays_, detection, cloud.label);
-    points->header = frame.header;
-    cloud.publisher.publish(points);
   }
 }
 

@@ -3,20 +3,18 @@
 #include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 
-#include <array>
 #include <functional>
 
 #include "core/ray_table.h"
 #include "dominant_plane_detection/camera_model.h"
 #include "dominant_plane_detection/detection.h"
 #include "ros/detection_inputs.h"
-#include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
 
-/// The topics a detection is published on, but for the overlay. Each message is made only while
-/// somebody listens to it, carries the depth image's header, and is not touched once it is
-/// published, so that subscribers in the same process may keep it.
+/// The topics a detection is published on, but for overlay, clouds and scan. Each message is made
+/// only while somebody listens to it, carries the depth image's header, and is not touched once it
+/// is published, so that subscribers in the same process may keep it.
 class DetectionOutputs {
  public:
   /// @param node outputs are private topics of it.
@@ -30,24 +28,12 @@ class DetectionOutputs {
                double processing_time);
 
  private:
-  /// The points of the pixels with a label.
-  struct LabelledCloud {
-    const char* topic;
-    Label label;
-    ros::Publisher publisher;
-  };
-
   void publishImages(const DetectionInputs::Frame& frame, const Detection& detection);
-  void publishClouds(const DetectionInputs::Frame& frame, const Detection& detection);
   void publishShapes(const DetectionInputs::Frame& frame, const Detection& detection);
 
   ros::Publisher plane_;
   ros::Publisher planes_;
   ros::Publisher coefficients_;
-  std::array<LabelledCloud, 4> clouds_{{{topics::kObstacles, Label::kObstacle, {}},
-                                        {topics::kGround, Label::kGround, {}},
-                                        {topics::kDropOffs, Label::kDropOff, {}},
-                                        {topics::kMissingGround, Label::kMissingGround, {}}}};
   ros::Publisher obstacle_indices_;
   ros::Publisher outline_;
   ros::Publisher markers_;

@@ -4,12 +4,18 @@
 
 #include <stdexcept>
 
+#include "ros/node_parameters.h"
+
 namespace dominant_plane_detection {
 
 const std::set<std::string>& nodeletParameters() {
-  static const std::set<std::string> names{"correction",       "input",     "image_transport",
-                                           "learn_correction", "rectified", "sensor"};
-  return names;
+  static const std::set<std::string> all = [] {
+    std::set<std::string> names{"correction", "image_transport", "input", "learn_correction",
+                                "rectified",  "robot_body",      "sensor"};
+    for (const std::string& name : parameterNames<NodeParameters>()) names.insert(name);
+    return names;
+  }();
+  return all;
 }
 
 void visitParameterFile(

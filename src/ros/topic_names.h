@@ -13,6 +13,7 @@ constexpr const char* kImu = "imu/data_raw";  // REP 145: without an orientation
 // More inputs of the detection, relative to its namespace.
 constexpr const char* kPoints = "points";
 constexpr const char* kPicture = "image";
+constexpr const char* kImuData = "imu/data";  // the driver's imu/data_raw is another
 
 // Outputs, private to the node.
 constexpr const char* kPlane = "plane";
@@ -30,5 +31,6 @@ constexpr const char* kObstacleIndices = "obstacle_indices";
 constexpr const char* kHeightImage = "height_image";
 constexpr const char* kOutline = "outline";
 constexpr const char* kMarkers = "markers";
+constexpr const char* kScan = "scan";
 
 }  // namespace dominant_plane_detection::topics

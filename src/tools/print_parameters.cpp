@@ -8,12 +8,15 @@
 
 #include "ros/detection_parameters.h"
 #include "ros/driver_parameters.h"
+#include "ros/node_parameters.h"
 
 namespace dominant_plane_detection {
 namespace {
 
 const char* typeOf(Algorithm) { return "choice"; }
 const char* typeOf(Preference) { return "choice"; }
+const char* typeOf(TfOutput) { return "choice"; }
+const char* typeOf(const std::string&) { return "text"; }
 const char* typeOf(const VideoMode&) { return "text"; }
 const char* typeOf(bool) { return "bool"; }
 const char* typeOf(int) { return "int"; }
@@ -64,4 +67,5 @@ int main() {
   using namespace dominant_plane_detection;
   print<DriverParameters>("OpenNI2Driver");
   print<Parameters>("PlaneDetection");
+  print<NodeParameters>("PlaneDetectionNode");
 }

@@ -209,7 +209,7 @@ TEST_F(Nodelet, PicturesOfAnotherFrameAreNotPaintedOver) {
   Listener<rosgraph_msgs::Log> log(node_, "/rosout");
   const auto complaints = [&] {
     return std::count_if(log.messages().begin(), log.messages().end(), [](const auto& line) {
-      return line->msg.find("expected pictures in its frame optical") != std::string::npos &&
+      return line->msg.find("expected some in the depth's frame optical") != std::string::npos &&
              line->msg.find("got some in rgb_optical on /image") != std::string::npos;
     });
   };

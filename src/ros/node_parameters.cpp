@@ -1,0 +1,51 @@
+#include "ros/node_parameters.h"
+
+#include "core/parameter_text.h"
+
+namespace dominant_plane_detection {
+
+std::vector<std::string> findErrors(const NodeParameters& p) {
+  std::vector<std::string> errors = findRangeErrors(p);
+  if (p.ground_frame.empty()) errors.emplace_back("ground_frame: expected a name, got none");
+  return errors;
+}
+
+void setParameter(NodeParameters& parameters, const std::string& name, const std::string& value) {
+  // As users of other packages are used to.
+  const bool is_switch = name == "publish_tf" && (value == "true" || value == "false");
+  setByName(parameters, name, !is_switch ? value : value == "true" ? "ground" : "none");
+}
+
+std::vector<std::string> refuseContradictions(NodeParameters& p) {
+  std::vector<std::string> errors;
+  if (!(p.clearance_height < p.max_obstacle_height)) {
+    errors.push_back("clearance_height has to be smaller than max_obstacle_height, got " +
+                     std::to_string(p.clearance_height) + " m and " +
+                     std::to_string(p.max_obstacle_height) + " m");
+    p.clearance_height = NodeParameters().clearance_height;
+    p.max_obstacle_height = NodeParameters().max_obstacle_height;
+  }
+  if (!p.base_frame.empty()) return errors;
+  if (p.publish_tf == TfOutput::kBase) {
+    errors.emplace_back("publish_tf base needs a base_frame, got none");
+    p.publish_tf = TfOutput::kNone;
+  }
+  if (p.clouds_in_base_frame) {
+    errors.emplace_back("clouds_in_base_frame needs a base_frame, got none");
+    p.clouds_in_base_frame = false;
+  }
+  return errors;
+}
+
+NodeParameters loadNodeParameters(const ros::NodeHandle& private_node) {
+  NodeParameters parameters;
+  std::vector<std::string> errors = readValues(private_node, parameters);
+  for (const std::string& error : refuseContradictions(parameters)) errors.push_back(error);
+  if (!errors.empty()) {
+    ROS_ERROR_STREAM("Refused parameters of " << private_node.getNamespace()
+                                              << ", their defaults are used: " << joined(errors));
+  }
+  return parameters;
+}
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/parameter_table.h"
+#include "ros/ros_parameters.h"
+
+namespace dominant_plane_detection {
+
+/// Which transform goes out on tf.
+enum class TfOutput : std::uint8_t {
+  kNone,
+  kGround,  ///< from the optical frame to `ground_frame`
+  kBase,    ///< from `base_frame` to the camera
+};
+template <>
+inline constexpr std::array<const char*, 3> kChoiceNames<TfOutput>{"none", "ground", "base"};
+
+/// What the detection nodelet is told about the robot and what it gives out; read at the start.
+struct NodeParameters {
+  std::string base_frame;  ///< of the robot, z = 0 its ground; empty: nothing is known
+  std::string ground_frame = "ground";
+  TfOutput publish_tf = TfOutput::kNone;
+  bool use_imu = true;                ///< gravity tells up where tf does not
+  bool tracking = true;               ///< the last plane is looked for first
+  double smoothing_time = 0.0;        ///< [s] of planes that are tracked; 0: each image alone
+  double clearance_height = 0.0;      ///< [m] lower obstacles are not in the scan
+  double max_obstacle_height = 2.0;   ///< [m] higher obstacles are not in the scan
+  bool scan_missing_ground = false;   ///< missing ground is an obstacle of the scan
+  int stride = 1;                     ///< [px] clouds have every n-th point of every n-th row
+  bool clouds_in_base_frame = false;  ///< instead of the optical frame
+  bool coloured_clouds = false;       ///< XYZRGB with the registered picture's colours
+};
+
+/// The one list of the node's parameters; see `visitParameters` of the detection. Members are of
+/// type std::string, bool, int or double, or an enumeration.
+template <typename ParametersT, typename Visitor, IfParameters<ParametersT, NodeParameters> = 0>
+void visitParameters(ParametersT& parameters, Visitor&& visit) {
+  using Info = ParameterInfo;
+  auto& p = parameters;
+  visit(Info{"base_frame", "-", 0, 0,
+             "frame of the robot with z up and z = 0 its ground: tf tells up and height by it; "
+             "empty: none"},
+        p.base_frame);
+  visit(Info{"ground_frame", "-", 0, 0,
+             "frame on the ground below the camera, of the scan; one name per camera"},
+        p.ground_frame);
+  visit(Info{"publish_tf", "-", 0, 2,
+             "none: only what the scan needs; ground: the optical frame to ground_frame; base: "
+             "base_frame, below the camera, to the camera's frames"},
+        p.publish_tf);
+  visit(
+      Info{"use_imu", "-", 0, 1, "gravity by imu/data or imu/data_raw tells up where tf does not"},
+      p.use_imu);
+  visit(Info{"tracking", "-", 0, 1, "the last image's plane is looked for first"}, p.tracking);
+  visit(Info{"smoothing_time", "s", 0, 10,
+             "after which an image counts 1/e in a tracked plane; 0: it is that of one image"},
+        p.smoothing_time);
+  visit(Info{"clearance_height", "m", 0, 10, "lower obstacles are not in the scan"},
+        p.clearance_height);
+  visit(Info{"max_obstacle_height", "m", 0, 100, "higher obstacles are not in the scan"},
+        p.max_obstacle_height);
+  visit(Info{"scan_missing_ground", "-", 0, 1, "missing ground is an obstacle of the scan"},
+        p.scan_missing_ground);
+  visit(Info{"stride", "px", 1, 64, "clouds have every n-th point of every n-th row"}, p.stride);
+  visit(Info{"clouds_in_base_frame", "-", 0, 1,
+             "clouds are in base_frame instead of the optical frame"},
+        p.clouds_in_base_frame);
+  visit(Info{"coloured_clouds", "-", 0, 1,
+             "clouds are XYZRGB with the colours of image, black where there is none"},
+        p.coloured_clouds);
+}
+
+inline std::string configValue(TfOutput value) {
+  return kChoiceNames<TfOutput>[static_cast<std::size_t>(value)];
+}
+
+std::vector<std::string> findErrors(const NodeParameters& parameters);
+/// @throw std::invalid_argument as `setParameter` of the detection does.
+void setParameter(NodeParameters& parameters, const std::string& name, const std::string& value);
+
+/// Sets values that contradict each other back to their defaults.
+/// @return one sentence each.
+std::vector<std::string> refuseContradictions(NodeParameters& parameters);
+
+/// Reads them from a node's private namespace. What cannot be used is refused in one line of the
+/// log, and the default stays.
+NodeParameters loadNodeParameters(const ros::NodeHandle& private_node);
+
+}  // namespace dominant_plane_detection

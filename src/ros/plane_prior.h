@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dominant_plane_detection/prior.h"
+#include "prior/known_up.h"
+#include "prior/mount_check.h"
+#include "prior/plane_track.h"
+#include "ros/detection_inputs.h"
+#include "ros/gravity_input.h"
+#include "ros/node_parameters.h"
+#include "ros/robot_frames.h"
+
+namespace dominant_plane_detection {
+
+/// What the robot knows about the plane before an image is looked at, and what the plane then says
+/// of the robot's own geometry.
+///
+/// All of it happens in the thread of the node's callback queue.
+class PlanePrior {
+ public:
+  PlanePrior(const ros::NodeHandle& node, const NodeParameters& parameters, RobotFrames& frames);
+
+  /// While images are looked at.
+  void subscribe();
+  void unsubscribe();
+
+  Prior of(const DetectionInputs::Frame& frame);
+  /// @param frame, detection of the last call of `of`.
+  void add(const DetectionInputs::Frame& frame, const Detection& detection);
+
+  /// What diagnostics say.
+  struct Status {
+    std::string up_source;  ///< in words
+    std::string remark;     ///< why something that is wanted is not taken
+    std::string mount;      ///< how the mount differs from tf; empty where it does not
+  };
+  const Status& status() const { return status_; }
+
+ private:
+  void beginAnewAfterJumps(const std_msgs::Header& header);
+  UpChoice::Candidates candidates(const std_msgs::Header& header);
+  void compareWithTf(const std_msgs::Header& header, const Detection& detection);
+  std::string lasting(double stamp, const std::string& remark);
+  static void report(std::string& said, const std::string& now);
+
+  NodeParameters parameters_;
+  RobotFrames& frames_;
+  GravityInput gravity_;
+  UpChoice choice_;
+  PlaneTrack track_;
+  MountCheck mount_check_;
+
+  std_msgs::Header last_;
+  std::optional<Eigen::Isometry3d> camera_;  ///< T_base_camera at the image, from tf of its time
+  std::optional<Prior::ExpectedHeight> height_;
+  std::optional<double> remark_since_;  ///< [s]
+  int elsewhere_ = 0;  ///< [#] images in a row with a plane at another height than tf expects
+  Status status_;
+};
+
+}  // namespace dominant_plane_detection

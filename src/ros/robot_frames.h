@@ -1,0 +1,46 @@
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/node_handle.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace dominant_plane_detection {
+
+/// tf as a detection needs it: it never waits.
+///
+/// All of it happens in the thread of the node's callback queue, in which transforms come as well.
+class RobotFrames {
+ public:
+  struct Pose {
+    std::optional<Eigen::Isometry3d> transform;  ///< T_target_source
+    bool exact = false;   ///< of the very time, and not up to a twentieth of a second older
+    std::string problem;  ///< why there is none, in one sentence
+  };
+
+  explicit RobotFrames(const ros::NodeHandle& node) : node_(node) {}
+
+  /// Subscribes transforms; else that is done with the first call that needs them.
+  void listen();
+  Pose pose(const std::string& target, const std::string& source, const ros::Time& stamp);
+  /// @return empty where a frame has none, or is not known.
+  std::string parentOf(const std::string& frame);
+
+  /// @param transform T_parent_child
+  void broadcast(const std::string& parent, const std::string& child, const ros::Time& stamp,
+                 const Eigen::Isometry3d& transform);
+
+ private:
+  ros::NodeHandle node_;
+  std::unique_ptr<tf2_ros::Buffer> buffer_;
+  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  std::unique_ptr<tf2_ros::TransformBroadcaster> broadcaster_;
+};
+
+}  // namespace dominant_plane_detection

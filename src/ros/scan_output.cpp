@@ -1,0 +1,38 @@
+#include "ros/scan_output.h"
+
+#include <sensor_msgs/LaserScan.h>
+
+#include "ros/detection_messages.h"
+#include "ros/topic_names.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+constexpr std::uint32_t kQueue = 10;
+
+}  // namespace
+
+ScanOutput::ScanOutput(ros::NodeHandle& private_node, const NodeParameters& parameters,
+                       RobotFrames& frames, const std::function<void()>& listeners_changed)
+    : limits_{parameters.clearance_height, parameters.max_obstacle_height,
+              parameters.scan_missing_ground, 0.0},
+      tf_(parameters, frames) {
+  const ros::SubscriberStatusCallback changed =
+      [listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); };
+  publisher_ =
+      private_node.advertise<sensor_msgs::LaserScan>(topics::kScan, kQueue, changed, changed);
+}
+
+void ScanOutput::publish(const DetectionInputs::Frame& frame, const Detection& detection,
+                         double range_max) {
+  if (!detection.found() || !anybodyListens()) return;
+  const auto on_ground = tf_.publish(frame.header, detection);
+  if (!on_ground || publisher_.getNumSubscribers() == 0) return;
+  limits_.range_max = range_max;
+  rays_.build(frame.camera);
+  std_msgs::Header header = frame.header;
+  header.frame_id = *on_ground;
+  publisher_.publish(scanMessage(header, scanner_.scan(frame.depth, rays_, detection, limits_)));
+}
+
+}  // namespace dominant_plane_detection

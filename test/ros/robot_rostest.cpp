@@ -1,0 +1,359 @@
+// What a detection does with what its robot knows, and what it tells the robot; on scenes whose
+// truth is known.
+
+#include <pcl_conversions/pcl_conversions.h>
+#include <pcl_ros/point_cloud.h>
+#include <rosgraph_msgs/Log.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/LaserScan.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "navigation/ground_frame.h"
+#include "nodelet_fixture.h"
+#include "support/diagnostics.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+
+/// Where the camera is on the robot: the base is 0.2 m behind the camera's foot, on the floor.
+Eigen::Isometry3d cameraInBase(double pitch_error = 0.0, double height_error = 0.0) {
+  Eigen::Isometry3d base_from_ground = Eigen::Isometry3d::Identity();
+  base_from_ground.translation() = Eigen::Vector3d(0.2, 0.0, height_error);
+  Eigen::Isometry3d camera = base_from_ground * groundFromOptical(kUp, kHeight);
+  camera.linear() = Eigen::AngleAxisd(pitch_error, Eigen::Vector3d::UnitY()) * camera.linear();
+  return camera;
+}
+
+/// A table over most of the image, and the floor right of it.
+sensor_msgs::Image tableBeforeFloor() {
+  OwnedDepth<float> depth = planeDepth(testCamera(), kUp, 0.5);
+  OwnedDepth<float> floor = planeDepth(testCamera(), kUp, kHeight);
+  for (int v = 0; v < depth.height; ++v) {
+    for (int u = 440; u < depth.width; ++u) depth.at(u, v) = floor.at(u, v);
+  }
+  return message(inMillimetres(depth));
+}
+
+class Robot : public Nodelet {
+ protected:
+  Robot() : listener_(buffer_), imus_(node_.advertise<sensor_msgs::Imu>("/imu/data_raw", 50)) {}
+
+  void sendMount(const Eigen::Isometry3d& camera) {
+    geometry_msgs::TransformStamped mount = tf2::eigenToTransform(camera);
+    mount.header.frame_id = "base_link";
+    mount.header.stamp = ros::Time(1, 0);
+    mount.child_frame_id = "optical";
+    mounts_.sendTransform(mount);
+  }
+  /// Images at 30 Hz from a time of their own on, each after its inertial readings.
+  /// @param seconds [s] to wait for the answer to each.
+  void sendImages(const sensor_msgs::Image& image, int count, bool with_imu = true,
+                  double seconds = 20.0) {
+    for (int i = 0; i < count; ++i) {
+      stamp_ += ros::Duration(1.0 / 30.0);
+      if (with_imu) sendImu();
+      sensor_msgs::Image stamped = image;
+      stamped.header.stamp = stamp_;
+      stamped.header.frame_id = "optical";
+      sensor_msgs::CameraInfo info = cameraInfo();
+      info.header = stamped.header;
+      infos_.publish(info);
+      images_.publish(stamped);
+      // One after the other, so that none is overtaken.
+      spinUntil([&] { return answered_ == nullptr || answered_() == stamp_; }, seconds);
+    }
+  }
+  void sendImu() {
+    sensor_msgs::Imu imu;
+    imu.header.stamp = stamp_;
+    imu.header.frame_id = "optical";
+    imu.orientation_covariance[0] = -1.0;
+    imu.angular_velocity_covariance[0] = -1.0;
+    imu.linear_acceleration.x = 9.81 * kUp.x();
+    imu.linear_acceleration.y = 9.81 * kUp.y();
+    imu.linear_acceleration.z = 9.81 * kUp.z();
+    imus_.publish(imu);
+  }
+  /// Sends an image until a detection's last answer is what is waited for.
+  template <typename Condition>
+  bool sendUntil(const Listener<DominantPlane>& planes, const sensor_msgs::Image& image,
+                 Condition&& condition) {
+    answered_ = [&] { return planes.size() > 0 ? planes.last()->header.stamp : ros::Time(); };
+    const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(20.0 * patience());
+    while (ros::SteadyTime::now() < end) {
+      sendImages(image, 1, true, 0.2);  // the first may come before the detection listens
+      if (planes.size() > 0 && condition(*planes.last())) return true;
+    }
+    return false;
+  }
+  bool ready(const Listener<DominantPlane>& planes) {
+    return spinUntil([&] { return planes.connected(); }) && waitForSubscription();
+  }
+  static bool isFrom(const DominantPlane& plane, std::uint8_t source, double distance) {
+    return plane.state == DominantPlane::FOUND && plane.up_source == source &&
+           std::abs(plane.distance - distance) < 0.005;
+  }
+
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  tf2_ros::StaticTransformBroadcaster mounts_;
+  ros::Publisher imus_;
+  ros::Time stamp_ = nextStamp();
+  std::function<ros::Time()> answered_;
+};
+
+TEST_F(Robot, TfTellsUpAndTheHeightOfTheFloor) {
+  sendMount(cameraInBase());
+  Listener<DominantPlane> planes(node_, "/by_tf/plane");
+  ASSERT_TRUE(ready(planes));
+  const sensor_msgs::Image image = tableBeforeFloor();
+  EXPECT_TRUE(sendUntil(planes, image, [](const DominantPlane& plane) {
+    return isFrom(plane, DominantPlane::UP_TF, kHeight) && plane.tracked;
+  }));
+  // The same mount over a floor that would be the table.
+  sendMount(cameraInBase(0.0, -0.3));
+  EXPECT_TRUE(sendUntil(planes, image, [](const DominantPlane& plane) {
+    return isFrom(plane, DominantPlane::UP_TF, 0.5);
+  }));
+  sendMount(cameraInBase());
+}
+
+TEST_F(Robot, GravityFindsTheLowestLevelPlane) {
+  Listener<DominantPlane> planes(node_, "/by_gravity/plane");
+  ASSERT_TRUE(ready(planes));
+  ASSERT_TRUE(spinUntil([&] { return imus_.getNumSubscribers() > 0; }));
+  EXPECT_TRUE(sendUntil(planes, tableBeforeFloor(), [](const DominantPlane& plane) {
+    return isFrom(plane, DominantPlane::UP_IMU, kHeight) && plane.tracked;
+  }));
+  // Readings that are not of the image's time are passed over, and so is a track.
+  stamp_ += ros::Duration(2.0);
+  answered_ = [&] { return planes.last()->header.stamp; };
+  sendImages(tableBeforeFloor(), 1, false);
+  EXPECT_TRUE(isFrom(*planes.last(), DominantPlane::UP_FIXED, 0.5)) << planes.last()->distance;
+  EXPECT_FALSE(planes.last()->tracked);
+}
+
+TEST_F(Robot, WithoutAnyThePlaneIsTheLargestAndTheLogSaysWhatIsMissing) {
+  Listener<DominantPlane> planes(node_, "/by_nothing/plane");
+  Listener<rosgraph_msgs::Log> logs(node_, "/rosout");
+  ASSERT_TRUE(ready(planes));
+  EXPECT_TRUE(sendUntil(planes, tableBeforeFloor(), [](const DominantPlane& plane) {
+    return isFrom(plane, DominantPlane::UP_FIXED, 0.5);
+  }));
+  const auto said = [&] {
+    return std::count_if(logs.messages().begin(), logs.messages().end(), [](const auto& line) {
+      return line->level == rosgraph_msgs::Log::WARN &&
+             line->msg.find("No tf from no_such_base to optical") != std::string::npos;
+    });
+  };
+  sendImages(tableBeforeFloor(), 40);
+  EXPECT_TRUE(spinUntil([&] { return said() > 0; }));
+  sendImages(tableBeforeFloor(), 10);
+  EXPECT_FALSE(planes.last()->tracked);
+  EXPECT_EQ(said(), 1);
+  Diagnostics diagnostics(node_);
+  const std::string name = "by_nothing: detection";
+  EXPECT_TRUE(spinUntil([&] {
+    return diagnostics.value(name, "up, what is passed over").find("no_such_base") !=
+           std::string::npos;
+  }));
+  EXPECT_EQ(diagnostics.value(name, "up is known by"), "expected_up");
+}
+
+/// The box of the fixture against its own arithmetic.
+TEST_F(Robot, TheScanIsInTheFrameOnTheGround) {
+  sendMount(cameraInBase());
+  Listener<DominantPlane> planes(node_, "/by_tf/plane");
+  Listener<sensor_msgs::LaserScan> scans(node_, "/by_tf/scan");
+  ASSERT_TRUE(ready(planes));
+  ASSERT_TRUE(spinUntil([&] { return scans.connected(); }));
+  EXPECT_TRUE(sendUntil(planes, image_, [&](const DominantPlane& plane) {
+    return isFrom(plane, DominantPlane::UP_TF, kHeight) && scans.size() > 0;
+  }));
+  sendImages(image_, 10);  // until everything is connected
+  ASSERT_TRUE(spinUntil([&] { return scans.last()->header.stamp == planes.last()->header.stamp; }));
+  const sensor_msgs::LaserScan& scan = *scans.last();
+  EXPECT_EQ(scan.header.frame_id, "ground_by_tf");
+  EXPECT_NEAR(
+      static_cast<double>(scan.angle_max),
+      static_cast<double>(scan.angle_min) + static_cast<double>(scan.angle_increment) *
+                                                (static_cast<double>(scan.ranges.size()) - 1.0),
+      1e-4);
+  // Its tf has the same stamp, and takes the camera's foot to the origin.
+  ASSERT_TRUE(spinUntil(
+      [&] { return buffer_.canTransform("ground_by_tf", "optical", scan.header.stamp); }));
+  const Eigen::Isometry3d ground =
+      tf2::transformToEigen(buffer_.lookupTransform("ground_by_tf", "optical", scan.header.stamp));
+  EXPECT_LT((ground.translation() - Eigen::Vector3d(0, 0, kHeight)).norm(), 0.002);
+  EXPECT_LT((ground.linear() * kUp - Eigen::Vector3d::UnitZ()).norm(), 0.002);
+  // In each direction the nearest of the box's points.
+  const OwnedDepth<float> depth = sceneMetres();
+  std::vector<double> nearest(scan.ranges.size(), std::numeric_limits<double>::infinity());
+  for (int v = 200; v < 260; ++v) {
+    for (int u = 300; u < 360; ++u) {
+      const auto z = static_cast<double>(depth.pixels[static_cast<std::size_t>(v * 640 + u)]);
+      const Eigen::Vector3d at = groundFromOptical(kUp, kHeight) *
+                                 Eigen::Vector3d(z * testCamera().ray({u, v}).homogeneous());
+      const double index = (std::atan2(at.y(), at.x()) - static_cast<double>(scan.angle_min)) /
+                           static_cast<double>(scan.angle_increment);
+      double& range = nearest.at(static_cast<std::size_t>(std::lround(index)));
+      range = std::min(range, at.head<2>().norm());
+    }
+  }
+  int readings = 0;
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    const double range = static_cast<double>(scan.ranges[i]);
+    const bool valid = static_cast<double>(scan.range_min) <= range &&
+                       range <= static_cast<double>(scan.range_max);
+    EXPECT_TRUE(valid || std::isnan(range) || range == INFINITY) << range;
+    if (!valid) continue;
+    ++readings;
+    EXPECT_NEAR(range, nearest[i], 0.05) << i;
+  }
+  EXPECT_GE(readings, 10);
+}
+
+TEST_F(Robot, AFrameThatHasAParentIsLeftAlone) {
+  geometry_msgs::TransformStamped taken = tf2::eigenToTransform(Eigen::Isometry3d::Identity());
+  taken.header.frame_id = "map";
+  taken.header.stamp = ros::Time(1, 0);
+  taken.child_frame_id = "taken";
+  mounts_.sendTransform(taken);
+  Listener<DominantPlane> planes(node_, "/by_gravity/plane");
+  Listener<sensor_msgs::LaserScan> scans(node_, "/by_gravity/scan");
+  Listener<rosgraph_msgs::Log> logs(node_, "/rosout");
+  ASSERT_TRUE(ready(planes));
+  ASSERT_TRUE(spinUntil([&] { return scans.connected(); }));
+  const auto said = [&] {
+    return std::any_of(logs.messages().begin(), logs.messages().end(), [](const auto& line) {
+      return line->msg.find("No tf goes out from optical to taken") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(sendUntil(planes, image_, [&](const DominantPlane&) { return said(); }));
+  const std::size_t before = scans.size();
+  sendImages(image_, 10);
+  EXPECT_EQ(scans.size(), before);
+  std::string parent;
+  EXPECT_TRUE(buffer_._getParent("taken", ros::Time(0), parent));
+  EXPECT_EQ(parent, "map");
+}
+
+TEST_F(Robot, AMountThatIsKnockedIsTold) {
+  sendMount(cameraInBase());
+  Listener<DominantPlane> planes(node_, "/by_tf/plane");
+  Diagnostics diagnostics(node_);
+  const std::string name = "by_tf: detection";
+  ASSERT_TRUE(ready(planes));
+  ASSERT_TRUE(sendUntil(planes, image_, [](const DominantPlane& plane) {
+    return isFrom(plane, DominantPlane::UP_TF, kHeight);
+  }));
+  sendImages(image_, 120);
+  EXPECT_EQ(diagnostics.value(name, "mount"), "");
+  // tf that is wrong is as good as a mount that is.
+  sendMount(cameraInBase(3.0 * kDegree, 0.0));
+  sendImages(image_, 40);
+  ASSERT_TRUE(spinUntil([&] { return !diagnostics.value(name, "mount").empty(); }));
+  EXPECT_NE(diagnostics.value(name, "mount").find("mount moved"), std::string::npos);
+  EXPECT_NE(diagnostics.value(name, "mount").find("0.0 deg (roll) and -3.0 deg (pitch)"),
+            std::string::npos)
+      << diagnostics.value(name, "mount");
+  EXPECT_EQ(diagnostics.of(name)->level, diagnostic_msgs::DiagnosticStatus::WARN);
+  EXPECT_EQ(diagnostics.of(name)->message, diagnostics.value(name, "mount"));
+  sendMount(cameraInBase());
+  sendImages(image_, 40);
+  EXPECT_TRUE(spinUntil([&] { return diagnostics.value(name, "mount").empty(); }));
+}
+
+TEST_F(Robot, CloudsComeInTheBaseWithColoursAndWithoutTheBody) {
+  sendMount(cameraInBase());
+  const auto pictures = node_.advertise<sensor_msgs::Image>("/image", 10);
+  Listener<DominantPlane> planes(node_, "/in_base/plane");
+  Listener<pcl::PointCloud<pcl::PointXYZRGB>> grounds(node_, "/in_base/ground");
+  Listener<sensor_msgs::PointCloud2> raw(node_, "/in_base/ground");
+  ASSERT_TRUE(ready(planes));
+  ASSERT_TRUE(spinUntil(
+      [&] { return grounds.connected() && raw.connected() && pictures.getNumSubscribers() > 0; }));
+  sensor_msgs::Image picture;
+  picture.encoding = "rgb8";
+  picture.width = 640;
+  picture.height = 480;
+  picture.step = 3 * 640;
+  for (int i = 0; i < 640 * 480; ++i) picture.data.insert(picture.data.end(), {10, 20, 30});
+  picture.header.frame_id = "optical";
+  const auto coloured = [&](const pcl::PointCloud<pcl::PointXYZRGB>& cloud) {
+    return cloud.size() > 100 && std::all_of(cloud.begin(), cloud.end(), [](const auto& point) {
+             return point.r == 10 && point.g == 20 && point.b == 30;
+           });
+  };
+  ASSERT_TRUE(sendUntil(planes, image_, [&](const DominantPlane&) {
+    picture.header.stamp = stamp_ + ros::Duration(1.0 / 30.0);
+    pictures.publish(picture);
+    return grounds.size() > 0 && coloured(*grounds.last());
+  }));
+  const auto& cloud = *grounds.last();
+  EXPECT_EQ(cloud.header.frame_id, "base_link");
+  EXPECT_EQ(raw.last()->fields.back().name, "rgb");
+  // A ninth of the inliers.
+  EXPECT_NEAR(static_cast<double>(cloud.size()), planes.last()->inliers / 9.0,
+              0.02 * planes.last()->inliers);
+  const Eigen::AlignedBox3f body(Eigen::Vector3f(0.3F, -0.1F, -0.04F),
+                                 Eigen::Vector3f(0.75F, 0.1F, 0.3F));
+  float nearest = 10.0F;
+  for (const auto& point : cloud) {
+    ASSERT_NEAR(point.z, 0.0F, 0.05F);
+    ASSERT_FALSE(body.contains(point.getVector3fMap()));
+    nearest = std::min(nearest, point.x);
+  }
+  // There is floor beside the body, as near as that.
+  EXPECT_LT(nearest, 0.75F);
+}
+
+TEST_F(Robot, ThePlaneTellsTfWhereTheCameraIs) {
+  sendMount(cameraInBase());
+  Listener<DominantPlane> planes(node_, "/to_tf/plane");
+  ASSERT_TRUE(ready(planes));
+  // Above the optical frame there is base_link already: that is what found_base is above of.
+  EXPECT_TRUE(sendUntil(planes, image_, [&](const DominantPlane&) {
+    return buffer_.canTransform("found_base", "optical", ros::Time(0));
+  }));
+  const Eigen::Isometry3d camera =
+      tf2::transformToEigen(buffer_.lookupTransform("found_base", "optical", ros::Time(0)));
+  EXPECT_NEAR(camera.translation().z(), kHeight, 0.002);
+  EXPECT_LT(camera.translation().head<2>().norm(), 0.002);
+  EXPECT_LT((camera.linear() * kUp - Eigen::Vector3d::UnitZ()).norm(), 0.002);
+  std::string parent;
+  EXPECT_TRUE(buffer_._getParent("base_link", ros::Time(0), parent));
+  EXPECT_EQ(parent, "found_base");
+  EXPECT_TRUE(isFrom(*planes.last(), DominantPlane::UP_FIXED, kHeight) ||
+              isFrom(*planes.last(), DominantPlane::UP_IMU, kHeight));
+}
+
+/// A recording that is played in a loop.
+TEST_F(Robot, TimeThatGoesBackBeginsAnew) {
+  sendMount(cameraInBase());
+  Listener<DominantPlane> planes(node_, "/by_tf/plane");
+  ASSERT_TRUE(ready(planes));
+  ASSERT_TRUE(sendUntil(planes, image_, [](const DominantPlane& plane) {
+    return isFrom(plane, DominantPlane::UP_TF, kHeight) && plane.tracked;
+  }));
+  answered_ = [&] { return planes.last()->header.stamp; };
+  stamp_ -= ros::Duration(5.0);
+  sendImages(image_, 1);
+  EXPECT_EQ(planes.last()->header.stamp, stamp_);
+  EXPECT_FALSE(planes.last()->tracked);
+  EXPECT_TRUE(isFrom(*planes.last(), DominantPlane::UP_TF, kHeight));
+  sendImages(image_, 1);
+  EXPECT_TRUE(planes.last()->tracked);
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection
