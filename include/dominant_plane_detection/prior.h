@@ -31,7 +31,7 @@ struct Prior {
   std::optional<Eigen::Vector3d> expected_up;  ///< [-] in the optical frame, of any length
   UpSource up_source = UpSource::kNone;        ///< where expected_up came from
   double up_error = 0.175;  ///< [rad] by which it may be wrong; 10 degrees, as of a mount
-  std::optional<HeightRange> height_range;     ///< [m] camera height over the plane; others are none
+  std::optional<HeightRange> height_range;  ///< [m] camera height over the plane; others are none
   /// [m] Planes at this height come before others, which come as `Parameters::prefer` says.
   std::optional<ExpectedHeight> expected_height;
   /// Is looked for first (grid only), and holds if nothing better can be left. What is predicted

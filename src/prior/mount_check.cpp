@@ -17,8 +17,10 @@ constexpr double kRampPatience = 5.0;  // [s]
 /// and tiles are 5 mm high, wheels half a metre apart.
 constexpr double kFloorAngle = 0.6 * kDegree;  // [rad]
 constexpr double kFloorHeight = 0.006;         // [m]
-/// [-] of chi squared with three degrees of freedom: 99.9 %.
+/// [-] of chi squared with three degrees of freedom: 99.9 %, and 95 % for either half of the
+/// images.
 constexpr double kBeyond = 16.27;
+constexpr double kHalfBeyond = 7.81;
 /// A ramp is steeper, and meets the ground as far ahead.
 constexpr double kLeastRamp = 2.0 * kDegree;  // [rad]
 constexpr double kRampNear = 0.5;             // [m]
@@ -81,10 +83,10 @@ MountCheck::Mean MountCheck::meanOf(std::size_t begin, std::size_t end) const {
   return mean;
 }
 
-bool MountCheck::differs(const Mean& mean) const {
-  const bool from_tf = chiSquared(mean.difference, mean.covariance + unevenFloor()) > kBeyond;
+bool MountCheck::differs(const Mean& mean, double beyond) const {
+  const bool from_tf = chiSquared(mean.difference, mean.covariance + unevenFloor()) > beyond;
   const bool from_usual =
-      usual_time_ > kUsualFrom && chiSquared(mean.difference - usual_, unevenFloor()) > kBeyond;
+      usual_time_ > kUsualFrom && chiSquared(mean.difference - usual_, unevenFloor()) > beyond;
   return from_tf || from_usual;
 }
 
@@ -115,16 +117,21 @@ void MountCheck::add(double stamp, const Detection& detection, const Eigen::Isom
   if (recent_.size() < kFewest || stamp - recent_.front().stamp < kWindow / 2.0) return;
   const std::size_t half = recent_.size() / 2;
   const Mean mean = meanOf(0, recent_.size());
-  // Both halves: no single image, and no bump.
-  if (!differs(mean) || !differs(meanOf(0, half)) || !differs(meanOf(half, recent_.size()))) {
+  // Both halves: no single image, and no bump. What was told holds until it is clearly over.
+  const bool lasts = moved_ && differs(mean, kHalfBeyond);
+  const bool begins = differs(mean, kBeyond) && differs(meanOf(0, half), kHalfBeyond) &&
+                      differs(meanOf(half, recent_.size()), kHalfBeyond);
+  if (!lasts && !begins) {
     since_.reset();
     moved_.reset();
     return;
   }
   if (!since_) since_ = stamp;
-  if (maybeRamp(mean.difference, camera) && stamp - *since_ < kRampPatience) return;
+  if (maybeRamp(mean.difference - usual_, camera) && stamp - *since_ < kRampPatience) return;
   MovedMount moved;
-  const Eigen::Vector3d change = mean.difference;
+  // What was usual is the sensor's, and stays.
+  const Eigen::Vector3d change =
+      usual_time_ > kUsualFrom ? Eigen::Vector3d(mean.difference - usual_) : mean.difference;
   moved.difference = {change.x(), change.y(), change.z()};
   moved.camera = camera;
   const Eigen::Vector3d about(change.x(), change.y(), 0.0);

@@ -18,7 +18,8 @@ struct MountDifference {
   Eigen::Vector3d vector() const { return {roll, pitch, height}; }
 };
 
-/// A mount that is not where tf has it.
+/// A mount that is not where tf has it. Where it was usual for three seconds that the plane is a
+/// little off tf, as the sensor's lasting errors make it, it is off by that no more.
 struct MovedMount {
   MountDifference difference;
   Eigen::Isometry3d camera;  ///< T_base_camera as the plane has it; x, y and yaw are those of tf
@@ -57,7 +58,8 @@ class MountCheck {
   };
 
   Mean meanOf(std::size_t begin, std::size_t end) const;
-  bool differs(const Mean& mean) const;
+  /// @param beyond [-] of chi squared.
+  bool differs(const Mean& mean, double beyond) const;
   void learn(const Image& image);
 
   std::deque<Image> recent_;

@@ -90,6 +90,35 @@ class Parameters(unittest.TestCase):
             self.assertNotIn("correction", parameters(load(name, **arguments), node), name)
 
 
+    def test_what_a_robot_knows_reaches_the_detection(self):
+        nodes = {"detection": "/plane_detection", "replay": "/plane_detection",
+                 "pioneer": "/camera/plane_detection", "handheld": "/camera/plane_detection"}
+        for name, node in nodes.items():
+            arguments = {"bag": "/some.bag"} if name == "replay" else {}
+            plain = parameters(load(name, **arguments), node)
+            self.assertEqual(plain["base_frame"], "base_link" if name == "pioneer" else "", name)
+            self.assertIs(plain["use_imu"], True)
+            told = load(name, base_frame="my_base", imu="/my_imu", **arguments)
+            self.assertEqual(parameters(told, node)["base_frame"], "my_base", name)
+            detection, = [n for n in told.nodes if n.name == "plane_detection"]
+            self.assertEqual(dict(detection.remap_args)["imu/data_raw"], "/my_imu", name)
+        for name in ("pioneer", "handheld", "detection"):
+            told = load(name, ground_frame="my_ground", publish_tf="ground", use_imu="false",
+                        rectified="true")
+            told = parameters(told, nodes[name])
+            self.assertEqual(told["ground_frame"], "my_ground", name)
+            self.assertEqual(told["publish_tf"], "ground", name)
+            self.assertIs(told["use_imu"], False, name)
+            self.assertIs(told["rectified"], True, name)
+
+    def test_calibrations_reach_the_driver(self):
+        for name in ("pioneer", "handheld"):
+            urls = {f"{kind}_camera_info_url": f"file:///{kind}.yaml"
+                    for kind in ("depth", "rgb", "ir")}
+            driver = parameters(load(name, **urls), "/camera/driver")
+            self.assertEqual({key: driver[key] for key in urls}, urls, name)
+
+
 class Managers(unittest.TestCase):
     def managers(self, device_id):
         """Returns the manager of the driver, that of the detection, and all that are started."""
@@ -121,10 +150,11 @@ class CommandLines(unittest.TestCase):
 
     def test_record_takes_the_topics_that_there_are(self):
         record = arguments_of(load("record", bag=self.BAG), "recorder")
-        self.assertEqual(record[-5:], ["/camera/depth/image_raw", "/camera/depth/camera_info",
-                                       "/camera/rgb/image_raw", "/tf", "/tf_static"])
+        self.assertEqual(record[-6:], ["/camera/depth/image_raw", "/camera/depth/camera_info",
+                                       "/camera/rgb/image_raw", "/camera/imu/data_raw", "/tf",
+                                       "/tf_static"])
         registered = arguments_of(load("record", bag=self.BAG, registration="true"), "recorder")
-        self.assertEqual(registered[-5:-3], ["/camera/depth_registered/image_raw",
+        self.assertEqual(registered[-6:-4], ["/camera/depth_registered/image_raw",
                                              "/camera/depth_registered/camera_info"])
 
     def test_a_recorder_that_ends_ends_the_launch(self):
