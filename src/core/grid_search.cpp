@@ -184,18 +184,22 @@ void GridSearch::finishSurface(const SurfacePlane& surface, bool is_level) {
   }
 }
 
-/// Finds out on which side of the region's plane most of each of the other surfaces is.
+/// Finds out on which side of the region's plane most of each of the other surfaces is. One that is
+/// on neither by as much as sigma(z) is the same floor, which the sensor's error bends.
 void GridSearch::placeOtherSurfaces() {
   other_surfaces_.assign(other_.size(), 0);
-  std::array<double, kMaxSplits + 1> over{};  // [m] summed over points
+  std::array<double, kMaxSplits + 1> over{}, sigma{};  // [m] summed over points
   const HessePlane& plane = region_.plane;
   for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
     if (other_[tile] == 0) continue;
-    over[other_[tile]] -=
-        static_cast<double>(tiles_->count[tile]) * plane.signedDistance(tiles_->centre(tile));
+    const auto points = static_cast<double>(tiles_->count[tile]);
+    over[other_[tile]] -= points * plane.signedDistance(tiles_->centre(tile));
+    sigma[other_[tile]] += points / static_cast<double>(limits_.inverse_sigma[tile]);
   }
   for (std::size_t tile = 0; tile < tiles_->size(); ++tile) {
-    if (other_[tile] != 0) other_surfaces_[tile] = over[other_[tile]] > 0.0 ? kAbove : kBelow;
+    const std::uint8_t surface = other_[tile];
+    if (surface == 0 || std::abs(over[surface]) < sigma[surface]) continue;
+    other_surfaces_[tile] = over[surface] > 0.0 ? kAbove : kBelow;
   }
 }
 

@@ -35,7 +35,7 @@ struct ScanLimits {
 /// camera do not matter: its columns are not vertical then.
 ///
 /// Obstacles count from `clearance_height` to `max_obstacle_height` over the plane; a drop-off is
-/// where its ray passes through the plane, at its edge. A reading needs 20 pixels, of an image of
+/// where its ray passes through the plane, at its edge. A reading needs 28 pixels, of an image of
 /// 640 x 480, within half a degree and 5 cm.
 class GroundScanner {
  public:

@@ -91,6 +91,14 @@ TEST(ScanScenes, WhatStandsThereIsInTheScanAndNothingElse) {
   EXPECT_LT(median(smooth.relative), 0.02);
 }
 
+/// Rooms whose floor was once told in two by its errors, of which one half was called drop-off or
+/// obstacle.
+TEST(ScanScenes, AFloorThatErrorsBendStaysOneSurface) {
+  for (const std::uint32_t seed : {109, 127, 208, 256, 317, 339}) {
+    EXPECT_EQ(scanFigures(ErrorKind::kSmooth, ScanRule::kGround, seed, 1).ghosts, 0) << seed;
+  }
+}
+
 /// Larger errors than those of real cameras on real floors, see below: readings that are right stay
 /// so.
 TEST(ScanScenes, WithTheErrorsOfSensorsReadingsAreWhereThingsAre) {
