@@ -120,9 +120,11 @@ void GroundScanner::addRow(int v, const DepthView& depth, const RayTable& rays,
     }
     const auto cell = static_cast<std::size_t>(range / kCell);
     if (cell >= cells_) continue;
+    // What lies on the plane shows half as many pixels as what stands on it.
+    const std::uint32_t weight = label == Label::kObstacle ? 1 : 2;
     Cell& counted = grid_[at * cells_ + cell];
-    ++counted.points;
-    counted.sum += range;
+    counted.points += weight;
+    counted.sum += static_cast<float>(weight) * range;
   }
 }
 

@@ -46,8 +46,8 @@ class GroundScanner {
 
  private:
   struct Cell {
-    std::uint32_t points = 0;
-    float sum = 0.0F;  ///< [m] of their ranges
+    std::uint32_t points = 0;  ///< [px] weighted
+    float sum = 0.0F;          ///< [m] of their ranges
   };
 
   void begin(const RayTable& rays, const Detection& detection, const ScanLimits& limits);
