@@ -9,10 +9,10 @@
 #include <iostream>
 #include <opencv2/core.hpp>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
+#include "support/desk_truth.h"
 #include "support/recordings.h"
 #include "tools/inputs.h"
 
@@ -116,30 +116,6 @@ TEST(Tracking, AWrongTrackIsDroppedWithinOneImage) {
   EXPECT_GE(follower.tracked, 50);
 }
 
-/// What motion capture says of an image; see the recordings' own description.
-struct DeskTruth {
-  double stamp;               ///< [s]
-  Eigen::Vector3d up;         ///< [-] in the optical frame
-  double floor, table;        ///< [m] camera over it
-  double on_floor, on_table;  ///< [-] share of the pixels
-};
-
-std::vector<DeskTruth> readDeskTruth() {
-  std::ifstream file(recordingsFolder() + "/handheld_desk_truth.csv");
-  std::vector<DeskTruth> truths;
-  std::string line;
-  std::getline(file, line);  // the header
-  while (std::getline(file, line)) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream numbers(line);
-    DeskTruth t{};
-    numbers >> t.stamp >> t.up.x() >> t.up.y() >> t.up.z() >> t.floor >> t.table >> t.on_floor >>
-        t.on_table;
-    truths.push_back(t);
-  }
-  return truths;
-}
-
 /// A camera in the hand over a desk, rolled and pitched wildly.
 class Desk : public testing::Test {
  protected:
@@ -157,20 +133,13 @@ class Desk : public testing::Test {
     }
   }
 
-  const DeskTruth* truthOf(const Frame& frame) const {
-    const double stamp = std::stod(frame.name);
-    const auto near = [&](const DeskTruth& t) { return std::abs(t.stamp - stamp) < 2e-6; };
-    const auto truth = std::find_if(truths_.begin(), truths_.end(), near);
-    return truth == truths_.end() ? nullptr : &*truth;
-  }
-
   /// @param known makes the prior of an image.
   template <typename Known>
   Figures figures(const Parameters& parameters, Known&& known) const {
     Figures result;
     DominantPlaneDetector detector(parameters);
     for (const Frame& frame : frames_) {
-      const DeskTruth* const truth = truthOf(frame);
+      const DeskTruth* const truth = findTruth(truths_, std::stod(frame.name));
       if (truth == nullptr) continue;
       const Detection& d = detector.detect(frame.depth, frame.camera, known(*truth));
       result.planes.emplace_back();
