@@ -1,6 +1,7 @@
 #include "prior/mount_check.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -12,11 +13,12 @@ constexpr double kWindow = 0.65;       // [s] of images that are averaged
 constexpr std::size_t kFewest = 6;     // [#] of them
 constexpr double kUsualTime = 20.0;    // [s] that the usual difference is averaged over
 constexpr double kUsualFrom = 3.0;     // [s] of images from which on it is known
+constexpr double kMostAfter = 150.0;   // [#] images that the numbers are averaged over
 constexpr double kRampPatience = 5.0;  // [s]
 /// What an uneven floor and a robot that rocks on it explain, as standard deviations; doors' sills
 /// and tiles are 5 mm high, wheels half a metre apart.
-constexpr double kFloorAngle = 0.6 * kDegree;  // [rad]
-constexpr double kFloorHeight = 0.006;         // [m]
+constexpr double kFloorAngle = 0.5 * kDegree;  // [rad]
+constexpr double kFloorHeight = 0.005;         // [m]
 /// [-] of chi squared with three degrees of freedom: 99.9 %, and 95 % for either half of the
 /// images.
 constexpr double kBeyond = 16.27;
@@ -57,6 +59,17 @@ bool maybeRamp(const Eigen::Vector3d& difference, const Eigen::Isometry3d& camer
   return std::abs(rise) > kLeastRamp && meets > kRampNear && meets < kRampFar;
 }
 
+MovedMount movedBy(const Eigen::Vector3d& difference, const Eigen::Isometry3d& camera) {
+  MovedMount moved{{difference.x(), difference.y(), difference.z()}, camera};
+  const Eigen::Vector3d about(difference.x(), difference.y(), 0.0);
+  if (about.norm() > 0.0) {
+    moved.camera.linear() =
+        Eigen::AngleAxisd(about.norm(), about.normalized()).toRotationMatrix() * camera.linear();
+  }
+  moved.camera.translation().z() += difference.z();
+  return moved;
+}
+
 }  // namespace
 
 std::string MovedMount::text() const {
@@ -70,6 +83,19 @@ std::string MovedMount::text() const {
                 difference.roll / kDegree, difference.pitch / kDegree, 1e3 * difference.height,
                 at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w());
   return text;
+}
+
+MountCheck::Image MountCheck::compare(double stamp, const Detection& detection,
+                                      const Eigen::Isometry3d& camera) {
+  // The rotation that takes the plane's normal to the base's z axis is the camera's in the base.
+  const Eigen::Vector3d normal = camera.linear() * detection.normal;
+  const Eigen::AngleAxisd turned(
+      Eigen::Quaterniond::FromTwoVectors(normal, Eigen::Vector3d::UnitZ()));
+  const Eigen::Vector3d rotation = turned.angle() * turned.axis();
+  const Eigen::Matrix<double, 3, 4> rows = toDifference(camera.linear());
+  return {stamp,
+          {rotation.x(), rotation.y(), detection.distance - camera.translation().z()},
+          rows * detection.covariance * rows.transpose()};
 }
 
 MountCheck::Mean MountCheck::meanOf(std::size_t begin, std::size_t end) const {
@@ -97,50 +123,49 @@ void MountCheck::learn(const Image& image) {
   usual_ += since / usual_time_ * (image.difference - usual_);
 }
 
+/// Both halves: no single image, and no bump. What was told holds until it is clearly over.
+bool MountCheck::isOff() const {
+  const Mean mean = meanOf(0, recent_.size());
+  if (moved_) return differs(mean, kHalfBeyond);
+  const std::size_t half = recent_.size() / 2;
+  return differs(mean, kBeyond) && differs(meanOf(0, half), kHalfBeyond) &&
+         differs(meanOf(half, recent_.size()), kHalfBeyond);
+}
+
+/// Means over all images since it is off: the longer, the better.
+void MountCheck::follow(const Image& image) {
+  if (!since_) {
+    since_ = image.stamp;
+    const std::size_t half = recent_.size() / 2;  // the first half may be from before
+    after_ = meanOf(half, recent_.size()).difference;
+    after_images_ = static_cast<double>(recent_.size() - half);
+    return;
+  }
+  after_images_ = std::min(after_images_ + 1.0, kMostAfter);
+  after_ += (image.difference - after_) / after_images_;
+}
+
 void MountCheck::add(double stamp, const Detection& detection, const Eigen::Isometry3d& camera) {
   if (!recent_.empty() && stamp < recent_.back().stamp) reset();
   if (!detection.found() || !(detection.covariance(0, 0) >= 0.0)) return;
-  // The rotation that takes the plane's normal to the base's z axis is the camera's in the base.
-  const Eigen::Vector3d normal = camera.linear() * detection.normal;
-  const Eigen::Quaterniond turn =
-      Eigen::Quaterniond::FromTwoVectors(normal, Eigen::Vector3d::UnitZ());
-  const Eigen::AngleAxisd turned(turn);
-  const Eigen::Vector3d rotation = turned.angle() * turned.axis();
-  const Eigen::Matrix<double, 3, 4> rows = toDifference(camera.linear());
-  recent_.push_back({stamp,
-                     {rotation.x(), rotation.y(), detection.distance - camera.translation().z()},
-                     rows * detection.covariance * rows.transpose()});
+  const Image image = compare(stamp, detection, camera);
+  recent_.push_back(image);
   while (stamp - recent_.front().stamp > kWindow) {
     if (!since_) learn(recent_.front());
     recent_.pop_front();
   }
   if (recent_.size() < kFewest || stamp - recent_.front().stamp < kWindow / 2.0) return;
-  const std::size_t half = recent_.size() / 2;
-  const Mean mean = meanOf(0, recent_.size());
-  // Both halves: no single image, and no bump. What was told holds until it is clearly over.
-  const bool lasts = moved_ && differs(mean, kHalfBeyond);
-  const bool begins = differs(mean, kBeyond) && differs(meanOf(0, half), kHalfBeyond) &&
-                      differs(meanOf(half, recent_.size()), kHalfBeyond);
-  if (!lasts && !begins) {
+  if (!isOff()) {
     since_.reset();
     moved_.reset();
     return;
   }
-  if (!since_) since_ = stamp;
-  if (maybeRamp(mean.difference - usual_, camera) && stamp - *since_ < kRampPatience) return;
-  MovedMount moved;
+  follow(image);
   // What was usual is the sensor's, and stays.
-  const Eigen::Vector3d change =
-      usual_time_ > kUsualFrom ? Eigen::Vector3d(mean.difference - usual_) : mean.difference;
-  moved.difference = {change.x(), change.y(), change.z()};
-  moved.camera = camera;
-  const Eigen::Vector3d about(change.x(), change.y(), 0.0);
-  if (about.norm() > 0.0) {
-    moved.camera.linear() =
-        Eigen::AngleAxisd(about.norm(), about.normalized()).toRotationMatrix() * camera.linear();
-  }
-  moved.camera.translation().z() += change.z();
-  moved_ = moved;
+  const bool usual = usual_time_ > kUsualFrom;
+  const Eigen::Vector3d change = usual ? Eigen::Vector3d(after_ - usual_) : after_;
+  if (maybeRamp(change, camera) && stamp - *since_ < kRampPatience) return;
+  moved_ = movedBy(change, camera);
 }
 
 }  // namespace dominant_plane_detection

@@ -14,8 +14,6 @@ struct MountDifference {
   double roll = 0.0;    ///< [rad] by which the camera is turned about the base's x axis
   double pitch = 0.0;   ///< [rad] about its y axis, > 0 looks farther down
   double height = 0.0;  ///< [m] by which the camera is higher
-
-  Eigen::Vector3d vector() const { return {roll, pitch, height}; }
 };
 
 /// A mount that is not where tf has it. Where it was usual for three seconds that the plane is a
@@ -57,7 +55,10 @@ class MountCheck {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   };
 
+  static Image compare(double stamp, const Detection& detection, const Eigen::Isometry3d& camera);
   Mean meanOf(std::size_t begin, std::size_t end) const;
+  bool isOff() const;
+  void follow(const Image& image);
   /// @param beyond [-] of chi squared.
   bool differs(const Mean& mean, double beyond) const;
   void learn(const Image& image);
@@ -65,6 +66,8 @@ class MountCheck {
   std::deque<Image> recent_;
   Eigen::Vector3d usual_ = Eigen::Vector3d::Zero();  ///< mean before that
   double usual_time_ = 0.0;                          ///< [s] of images in it
+  Eigen::Vector3d after_ = Eigen::Vector3d::Zero();  ///< mean since it is off
+  double after_images_ = 0.0;                        ///< [#] in it
   std::optional<double> since_;                      ///< [s] when the difference began
   std::optional<MovedMount> moved_;
 };
