@@ -447,6 +447,99 @@ TEST_F(DetectionMessages, CloudsHoldTheLabelledPointsInPclsLayout) {
   }
 }
 
+/// costmap_2d, pointcloud_to_laserscan and PCL read clouds by their fields' names and types.
+TEST_F(DetectionMessages, CloudsAreThinnedOutMovedAndColoured) {
+  const Detection& detection = detector_.detect(depth_.view(), camera_);
+  pcl::PointCloud<pcl::PointXYZ> all;
+  pcl::fromROSMsg(*labelledPoints(depth_.view(), rays_, detection, Label::kGround), all);
+  cv::Mat picture(480, 640, CV_8UC3);
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      picture.at<cv::Vec3b>(v, u) = {static_cast<std::uint8_t>(v / 2),
+                                     static_cast<std::uint8_t>(u / 3), 7};
+    }
+  }
+  CloudForm form;
+  form.stride = 5;
+  form.coloured = true;
+  form.bgr = &picture;
+  form.transform.linear() = Eigen::AngleAxisf(0.3F, Eigen::Vector3f::UnitX()).toRotationMatrix();
+  form.transform.translation() = Eigen::Vector3f(1.0F, 2.0F, 3.0F);
+  const auto message = labelledPoints(depth_.view(), rays_, detection, Label::kGround, form);
+  std::vector<std::string> names;
+  for (const auto& field : message->fields) {
+    names.push_back(field.name);
+    EXPECT_EQ(field.datatype, sensor_msgs::PointField::FLOAT32);
+    EXPECT_EQ(field.count, 1U);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"x", "y", "z", "rgb"}));
+  EXPECT_EQ(message->height, 1U);
+  EXPECT_EQ(message->row_step, message->width * message->point_step);
+  EXPECT_EQ(message->data.size(), message->row_step);
+  EXPECT_TRUE(message->is_dense);
+  pcl::PointCloud<pcl::PointXYZRGB> thin;
+  pcl::fromROSMsg(*message, thin);
+  EXPECT_NEAR(static_cast<double>(thin.size()), static_cast<double>(all.size()) / 25.0, 200.0);
+  for (const auto& point : thin) {
+    const Eigen::Vector3f seen = form.transform.inverse() * point.getVector3fMap();
+    const auto at = [](float ratio, double focal_length, double middle) {
+      return static_cast<int>(std::lround(focal_length * static_cast<double>(ratio) + middle));
+    };
+    const int u = at(seen.x() / seen.z(), camera_.fx, camera_.cx);
+    const int v = at(seen.y() / seen.z(), camera_.fy, camera_.cy);
+    ASSERT_EQ(u % 5, 0);
+    ASSERT_EQ(v % 5, 0);
+    ASSERT_EQ(detection.label(u, v), Label::kGround);
+    ASSERT_EQ(point.b, v / 2);
+    ASSERT_EQ(point.g, u / 3);
+    ASSERT_EQ(point.r, 7);
+  }
+  form.bgr = nullptr;
+  pcl::fromROSMsg(*labelledPoints(depth_.view(), rays_, detection, Label::kGround, form), thin);
+  EXPECT_EQ(thin.front().r + thin.front().g + thin.front().b, 0);
+}
+
+/// What costmap_2d's laser projection reads: angle_min + i * angle_increment, ranges in
+/// [range_min, range_max], +Inf for free (REP 117).
+TEST_F(DetectionMessages, ScansHoldWhatWasScanned) {
+  GroundScan scan;
+  scan.angle_min = -0.5;
+  scan.angle_increment = 0.25;
+  scan.range_min = 0.05;
+  scan.range_max = 3.5;
+  scan.ranges = {1.0F, NAN, 2.0F, INFINITY, 3.0F};
+  const auto message = scanMessage(header_, scan);
+  EXPECT_EQ(message->header.stamp, header_.stamp);
+  EXPECT_EQ(message->header.frame_id, header_.frame_id);
+  EXPECT_FLOAT_EQ(message->angle_min, -0.5F);
+  EXPECT_FLOAT_EQ(message->angle_max, 0.5F);
+  EXPECT_FLOAT_EQ(message->angle_increment, 0.25F);
+  EXPECT_FLOAT_EQ(message->range_min, 0.05F);
+  EXPECT_FLOAT_EQ(message->range_max, 3.5F);
+  ASSERT_EQ(message->ranges.size(), 5U);
+  EXPECT_EQ(message->ranges[2], 2.0F);
+  EXPECT_TRUE(std::isnan(message->ranges[1]) && message->ranges[3] == INFINITY);
+  // All readings are of one image.
+  EXPECT_EQ(message->time_increment, 0.0F);
+  EXPECT_TRUE(message->intensities.empty());
+  const auto empty = scanMessage(header_, GroundScan());
+  EXPECT_TRUE(empty->ranges.empty());
+  EXPECT_EQ(empty->angle_min, empty->angle_max);
+}
+
+TEST_F(DetectionMessages, ATrackAndItsUpAreTold) {
+  Prior prior;
+  prior.expected_up = detector_.detect(depth_.view(), camera_).normal;
+  prior.up_source = UpSource::kImu;
+  const Detection first = detector_.detect(depth_.view(), camera_, prior);
+  EXPECT_FALSE(planeMessage(header_, first, 0.001)->tracked);
+  prior.predicted_plane = Prior::PredictedPlane{first.normal, first.distance};
+  const auto followed =
+      planeMessage(header_, detector_.detect(depth_.view(), camera_, prior), 0.001);
+  EXPECT_TRUE(followed->tracked);
+  EXPECT_EQ(followed->up_source, DominantPlane::UP_IMU);
+}
+
 TEST_F(DetectionMessages, OverlayPaintsByLabel) {
   const Detection& detection = detector_.detect(depth_.view(), camera_);
   cv::Mat picture(480, 640, CV_8UC3, cv::Scalar(100, 100, 100));

@@ -9,6 +9,9 @@
 #include "core/parameter_table.h"
 #include "ros/detection_parameters.h"
 #include "ros/driver_parameters.h"
+#include "ros/node_parameters.h"
+#include "ros/parameter_file.h"
+#include "ros/robot_body.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -97,6 +100,76 @@ TEST(ParameterAgreement, PaperYamlIsValid) {
   EXPECT_GE(readYaml("config/paper.yaml", parameters), 8U);
   EXPECT_EQ(parameters.algorithm, Algorithm::kKdtree);
   EXPECT_EQ(parameters.delta.sigmas, 0.0);
+}
+
+TEST(NodeParameters, AreReadByTheirNames) {
+  NodeParameters parameters;
+  setParameter(parameters, "base_frame", "base_link");
+  setParameter(parameters, "publish_tf", "base");
+  setParameter(parameters, "smoothing_time", "0.5");
+  setParameter(parameters, "stride", "4");
+  EXPECT_EQ(parameters.base_frame, "base_link");
+  EXPECT_EQ(parameters.publish_tf, TfOutput::kBase);
+  EXPECT_EQ(parameters.smoothing_time, 0.5);
+  EXPECT_EQ(parameters.stride, 4);
+  // As a switch, which it is in other packages.
+  setParameter(parameters, "publish_tf", "true");
+  EXPECT_EQ(parameters.publish_tf, TfOutput::kGround);
+  setParameter(parameters, "publish_tf", "false");
+  EXPECT_EQ(parameters.publish_tf, TfOutput::kNone);
+  EXPECT_THROW(setParameter(parameters, "publish_tf", "maybe"), std::invalid_argument);
+  EXPECT_THROW(setParameter(parameters, "use_imu", "maybe"), std::invalid_argument);
+  parameters.stride = 0;
+  parameters.ground_frame.clear();
+  EXPECT_EQ(findErrors(parameters).size(), 2U);
+  for (const std::string& name : parameterNames<NodeParameters>()) {
+    EXPECT_EQ(nodeletParameters().count(name), 1U) << name;  // not the detection's in a file
+  }
+}
+
+TEST(NodeParameters, ContradictionsGoBackToTheDefaults) {
+  NodeParameters parameters;
+  EXPECT_TRUE(refuseContradictions(parameters).empty());
+  parameters.clearance_height = 3.0;
+  parameters.publish_tf = TfOutput::kBase;
+  parameters.clouds_in_base_frame = true;
+  parameters.stride = 7;
+  EXPECT_EQ(refuseContradictions(parameters).size(), 3U);
+  EXPECT_EQ(parameters.clearance_height, 0.0);
+  EXPECT_EQ(parameters.publish_tf, TfOutput::kNone);
+  EXPECT_FALSE(parameters.clouds_in_base_frame);
+  EXPECT_EQ(parameters.stride, 7);
+  parameters.base_frame = "base_link";
+  parameters.publish_tf = TfOutput::kBase;
+  parameters.clouds_in_base_frame = true;
+  EXPECT_TRUE(refuseContradictions(parameters).empty());
+}
+
+TEST(NodeParameters, TheRobotsBodyIsAListOfBoxes) {
+  const auto boxes = [](const std::string& text) {
+    XmlRpc::XmlRpcValue value;
+    int offset = 0;
+    value.fromXml(text, &offset);
+    return asBoxes(value);
+  };
+  const std::string number = "<value><double>0.5</double></value>",
+                    zero = "<value><int>0</int></value>";
+  const auto corner = [&](const char* name, const std::string& a) {
+    return "<member><name>" + std::string(name) + "</name><value><array><data>" + a + a + a +
+           "</data></array></value></member>";
+  };
+  const auto list = [](const std::string& members) {
+    return "<value><array><data><value><struct>" + members +
+           "</struct></value></data></array></value>";
+  };
+  const auto body = boxes(list(corner("min", zero) + corner("max", number)));
+  ASSERT_EQ(body.size(), 1U);
+  EXPECT_EQ(body[0].min(), Eigen::Vector3d::Zero());
+  EXPECT_EQ(body[0].max(), Eigen::Vector3d::Constant(0.5));
+  EXPECT_TRUE(boxes("<value><array><data></data></array></value>").empty());
+  EXPECT_THROW(boxes(zero), std::invalid_argument);
+  EXPECT_THROW(boxes(list(corner("min", zero))), std::invalid_argument);
+  EXPECT_THROW(boxes(list(corner("min", number) + corner("max", zero))), std::invalid_argument);
 }
 
 }  // namespace

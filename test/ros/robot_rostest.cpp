@@ -142,6 +142,41 @@ TEST_F(Robot, GravityFindsTheLowestLevelPlane) {
   EXPECT_FALSE(planes.last()->tracked);
 }
 
+/// An inertial sensor with a frame and an orientation of its own, on the topic that comes first.
+TEST_F(Robot, AnInertialSensorMayBeTurnedAndKnowItsOrientation) {
+  const auto imus = node_.advertise<sensor_msgs::Imu>("/imu/data", 50);
+  const Eigen::Quaterniond sensor(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
+  geometry_msgs::TransformStamped place =
+      tf2::eigenToTransform(Eigen::Isometry3d(sensor));  // T_optical_imu
+  place.header.frame_id = "optical";
+  place.header.stamp = ros::Time(1, 0);
+  place.child_frame_id = "imu_link";
+  mounts_.sendTransform(place);
+  Listener<DominantPlane> planes(node_, "/by_gravity/plane");
+  ASSERT_TRUE(ready(planes));
+  ASSERT_TRUE(spinUntil([&] { return imus.getNumSubscribers() > 0; }));
+  const Eigen::Vector3d up = sensor.conjugate() * kUp;
+  // The orientation is right, and what is felt is off by 14 degrees: more than a level plane may
+  // be.
+  const Eigen::Vector3d felt = 9.81 * (Eigen::AngleAxisd(14.0 * kDegree, up.unitOrthogonal()) * up);
+  sensor_msgs::Imu imu;
+  imu.header.frame_id = "imu_link";
+  const Eigen::Quaterniond orientation =
+      Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
+  imu.orientation.w = orientation.w();
+  imu.orientation.x = orientation.x();
+  imu.orientation.y = orientation.y();
+  imu.orientation.z = orientation.z();
+  imu.linear_acceleration.x = felt.x();
+  imu.linear_acceleration.y = felt.y();
+  imu.linear_acceleration.z = felt.z();
+  EXPECT_TRUE(sendUntil(planes, tableBeforeFloor(), [&](const DominantPlane& plane) {
+    imu.header.stamp = stamp_ + ros::Duration(1.0 / 30.0);
+    imus.publish(imu);
+    return isFrom(plane, DominantPlane::UP_IMU, kHeight);
+  }));
+}
+
 TEST_F(Robot, WithoutAnyThePlaneIsTheLargestAndTheLogSaysWhatIsMissing) {
   Listener<DominantPlane> planes(node_, "/by_nothing/plane");
   Listener<rosgraph_msgs::Log> logs(node_, "/rosout");
