@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -449,6 +450,43 @@ TEST(GridSearch, WhatIsPredictedWronglyLosesToWhatIsThere) {
     EXPECT_FALSE(followed.tracked);
     EXPECT_EQ(followed.ground, searched.ground);
     EXPECT_NEAR(followed.selection.plane().distance, 1.0, 1e-4);
+  }
+}
+
+/// A floor with a fold across the middle of the view, as a ramp's foot or a sensor's error makes
+/// one.
+/// @return [#] tiles of surfaces beside the ground.
+std::size_t tilesBesideFold(double fold) {
+  const HessePlane near = ground(0.9, 1.0);
+  const Eigen::Vector3d ray = kCamera.ray({160.0, 120.0}).homogeneous();
+  const Eigen::Vector3d on_fold = near.distance / near.normal.dot(ray) * ray;
+  const Eigen::Vector3d normal = Eigen::AngleAxisd(fold, Eigen::Vector3d::UnitX()) * near.normal;
+  OwnedDepth<float> depth = everywhere(near);
+  paintTiles(depth, kCamera, {normal, normal.dot(on_fold)}, [](int, int row) { return row < 15; });
+  addNoise(
+      depth, [](double z) { return 2e-4 * z * z; }, 1);
+  Parameters parameters;
+  parameters.smooth_error = {0.0002, 0.0001};
+  const TileScene scene(depth, kCamera);
+  PlaneSelection selection({parameters.expected_up.normalized(), 1.0, 0.0, 10.0, 500});
+  Effort effort;
+  GridSearch grid;
+  grid.run({scene.tiles, kCamera, 100}, parameters, std::nullopt, selection, effort);
+  EXPECT_TRUE(selection.found());
+  EXPECT_LT(angleBetween(selection.plane(), near), 0.3 * kDegree + std::abs(fold));
+  // Either side is told from the other, whatever becomes of it.
+  EXPECT_LT(selection.points(), 320U * 240U * 3 / 4);
+  return scene.tiles.size() -
+         static_cast<std::size_t>(std::count(
+             grid.otherSurfaces().begin(),
+             grid.otherSurfaces().begin() + static_cast<std::ptrdiff_t>(scene.tiles.size()),
+             std::uint8_t{0}));
+}
+
+TEST(GridSearch, AFoldAsSmallAsTheNoiseIsNoOtherSurface) {
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_EQ(tilesBesideFold(sign * 0.5 * kDegree), 0U);
+    EXPECT_GT(tilesBesideFold(sign * 2.0 * kDegree), 200U);
   }
 }
 
