@@ -38,6 +38,20 @@ TEST(SeedOrder, TheLowerHalfFollowsUp) {
   EXPECT_EQ(firstGroup(3, 3, kUp), (Cells{3, 4, 5, 6, 7, 8}));
 }
 
+/// To the nearest of eight directions: the seeds do not depend on how well up is known.
+TEST(SeedOrder, ALittleMoreRollChangesNothing) {
+  const auto rolled = [](double degrees) {
+    const double angle = degrees * M_PI / 180.0;
+    return firstGroup(40, 30, {std::sin(angle), -std::cos(angle), 0.0});
+  };
+  EXPECT_EQ(rolled(22.0), rolled(0.0));
+  EXPECT_EQ(rolled(-22.0), rolled(0.0));
+  EXPECT_EQ(rolled(23.0), rolled(45.0));
+  EXPECT_EQ(rolled(67.0), rolled(45.0));
+  EXPECT_EQ(rolled(68.0), rolled(90.0));
+  EXPECT_NE(rolled(22.0), rolled(23.0));
+}
+
 TEST(SeedOrder, OffsetsAreAnglesNotPixels) {
   // Up is at 45 degrees; with fx twice fy a column is half as far from the middle as a row.
   const Eigen::Vector3d up(std::sqrt(0.5), -std::sqrt(0.5), 0.0);
