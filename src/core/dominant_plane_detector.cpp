@@ -208,7 +208,8 @@ class DominantPlaneDetector::Implementation {
         std::max(static_cast<std::size_t>(std::ceil(parameters_.min_share * valid)), minPatch())};
     limits.expected_height = prior.expected_height;
     if (prefersLowest(prior)) {
-      limits.max_tilt = std::min(limits.max_tilt, kLevelTilt + prior.up_error);
+      limits.max_tilt =
+          std::min(limits.max_tilt, kLevelTilt + (prior.expected_up ? prior.up_error : 0.0));
       limits.lowest_from =
           std::max(static_cast<std::size_t>(std::ceil(kLowestShare * valid)), limits.min_points);
     }

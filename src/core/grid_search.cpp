@@ -170,7 +170,7 @@ void GridSearch::finishSurface(const SurfacePlane& surface, bool is_level) {
   joinPieces(surface.level);
   effort_->joined += region_.tiles.size();
   const double nearest = is_level ? nearestPoint() : std::numeric_limits<double>::infinity();
-  const State verdict = selection_->consider(region_.plane, region_.points, nearest);
+  const State verdict = selection_->consider(region_.plane, region_.points, nearest, centre());
   // A surface that is no ground may have been put together from parts of one that is.
   if (verdict != State::kFound && seeds_ == Seeds::kPromising) return;
   for (const std::size_t tile : region_.tiles) take(tile);
@@ -201,6 +201,18 @@ void GridSearch::placeOtherSurfaces() {
     if (surface == 0 || std::abs(over[surface]) < sigma[surface]) continue;
     other_surfaces_[tile] = over[surface] > 0.0 ? kAbove : kBelow;
   }
+}
+
+/// @return [m] the mean of the region's points.
+Eigen::Vector3d GridSearch::centre() const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double points = 0.0;
+  for (const std::size_t tile : region_.tiles) {
+    const auto count = static_cast<double>(tiles_->count[tile]);
+    sum += count * tiles_->centre(tile);
+    points += count;
+  }
+  return sum / std::max(points, 1.0);
 }
 
 /// @return [m] from the camera's foot on the region's plane to the nearest of its tiles.

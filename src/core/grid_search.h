@@ -80,6 +80,7 @@ class GridSearch : private RegionSource {
   std::optional<SurfacePlane> decideAgain(const TileRegion& grown);
   bool collectSurface(const SurfacePlane& surface, const std::vector<std::size_t>& grown);
   void joinPieces(float level);
+  Eigen::Vector3d centre() const;
   double nearestPoint() const;
   void placeOtherSurfaces();
   void take(std::size_t tile);

@@ -6,8 +6,10 @@
 
 namespace dominant_plane_detection {
 
-State PlaneSelection::consider(const HessePlane& plane, std::size_t points, double nearest) {
-  const Candidate candidate{plane, points, nearest};
+State PlaneSelection::consider(const HessePlane& plane, std::size_t points, double nearest,
+                               const std::optional<Eigen::Vector3d>& centre) {
+  const Eigen::Vector3d foot = plane.distance * plane.normal;
+  const Candidate candidate{plane, points, nearest, centre.value_or(foot)};
   const bool large = points >= minPoints();
   const State verdict = large ? checkPose(plane) : State::kTooSmall;
   took_last_ = verdict == State::kFound && beatsBest(candidate);
@@ -31,13 +33,12 @@ PlaneSelection::Rank PlaneSelection::rank(const Candidate& candidate) const {
 }
 
 bool PlaneSelection::beatsBest(const Candidate& candidate) const {
-  // [m] What differs by less may be one floor: a small piece of it, far off, tells the height below
-  // the camera no better.
+  // [m] What differs by less may be one floor, bent by the sensor's error.
   constexpr double kLevels = 0.1;
   if (!found()) return true;
   const Rank ours = rank(candidate), best = rank(best_);
   if (ours != best) return ours > best;
-  const double lower = candidate.plane.distance - best_.plane.distance;
+  const double lower = best_.plane.signedDistance(candidate.centre);
   if (ours == Rank::kLowest && std::abs(lower) > kLevels) return lower > 0.0;
   return isLarger(candidate);
 }
@@ -94,9 +95,11 @@ void PlaneSelection::explain(std::size_t seeds_tried, std::array<char, 256>& sen
       break;
     case State::kTooTilted:
       print(
-          "The largest plane is tilted by %.3f rad from the expected up direction, more than "
-          "max_tilt = %.3f rad.",
-          tilt(refused_.plane), limits_.max_tilt);
+          "The largest plane is tilted by %.3f rad from the expected up direction, more than %s"
+          "%.3f rad.",
+          tilt(refused_.plane),
+          limits_.lowest_from > 0 ? "a level one may be (prefer), " : "max_tilt = ",
+          limits_.max_tilt);
       break;
     case State::kOutOfHeightRange:
       print("The camera is %.3f m over the largest plane, expected %.3f to %.3f m.",

@@ -39,9 +39,12 @@ class PlaneSelection {
   /// @param points [px] that lie on the plane.
   /// @param nearest [m] from the camera's foot on the plane to where it begins, if it is one of
   /// several levels: among those of like size, within a quarter, the nearest wins.
+  /// @param centre [m] of these points: there it is held against other planes' heights, as a floor
+  /// may be bent; else below the camera.
   /// @return kFound if it could be the ground, otherwise why not.
   State consider(const HessePlane& plane, std::size_t points,
-                 double nearest = std::numeric_limits<double>::infinity());
+                 double nearest = std::numeric_limits<double>::infinity(),
+                 const std::optional<Eigen::Vector3d>& centre = std::nullopt);
   /// @return whether the plane that was considered last is the best one.
   bool tookLast() const { return took_last_; }
 
@@ -70,6 +73,7 @@ class PlaneSelection {
     HessePlane plane;
     std::size_t points = 0;
     double nearest = std::numeric_limits<double>::infinity();  ///< [m]
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();          ///< [m]
   };
 
   /// What a plane is likely to be, the best last.

@@ -20,6 +20,7 @@ constexpr int kGroundStep = 4;
 /// [px] of 640 x 480: half of what a thing 5 cm wide and high shows within half a degree, 2.5 m
 /// ahead of a Kinect.
 constexpr double kLeastPoints = 28.0;
+constexpr std::size_t kCoarse = 4;     // [#] of them, for which it is asked what was seen
 constexpr float kSeenToTheEnd = 0.8F;  // [-] of range_max
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
@@ -76,7 +77,9 @@ void GroundScanner::begin(const RayTable& rays, const Detection& detection,
   const Eigen::Isometry3d frame = groundFromOptical(detection.normal, detection.distance);
   rotation_ = frame.linear().cast<float>();
   height_ = static_cast<float>(detection.distance);
-  const double steps = std::min(std::ceil(halfWidth(rays, rotation_) / kIncrement), 359.0);
+  // In steps of five degrees, so that the scan keeps its form while the plane trembles.
+  const double fives = std::ceil(halfWidth(rays, rotation_) / (10.0 * kIncrement));
+  const double steps = std::min(10.0 * fives, 359.0);
   scan_.angle_min = -steps * kIncrement;
   scan_.angle_increment = kIncrement;
   scan_.range_min = kRangeMin;
@@ -85,6 +88,9 @@ void GroundScanner::begin(const RayTable& rays, const Detection& detection,
   scan_.ranges.assign(static_cast<std::size_t>(2.0 * steps) + 1, kNothing);
   cells_ = static_cast<std::size_t>(std::ceil(2.0F * static_cast<float>(limits.range_max) / kCell));
   grid_.assign(scan_.ranges.size() * cells_, Cell());
+  coarse_cells_ = cells_ / kCoarse + 1;
+  seen_.assign(scan_.ranges.size() * coarse_cells_, 0);
+  unseen_.assign(seen_.size(), 0);
   free_.assign(scan_.ranges.size(), 0.0F);
 }
 
@@ -97,10 +103,9 @@ void GroundScanner::addRow(int v, const DepthView& depth, const RayTable& rays,
   for (int u = 0; u < detection.image_width; u += kStep) {
     const Label label = detection.label(u, v);
     const bool between = v % kGroundStep != 0 || u % kGroundStep != 0;
-    if (label == Label::kGround && between) continue;
-    if (label == Label::kUnknown || (label == Label::kMissingGround && !limits.missing_ground)) {
-      continue;
-    }
+    const bool unseen =
+        label == Label::kUnknown || (label == Label::kMissingGround && !limits.missing_ground);
+    if ((label == Label::kGround || unseen) && between) continue;
     const Eigen::Vector3f ray = rotation_ * rays.ray(u, v);
     float z = -height_ / ray.z();  // on the plane
     if (label == Label::kObstacle) {
@@ -114,12 +119,14 @@ void GroundScanner::addRow(int v, const DepthView& depth, const RayTable& rays,
         static_cast<std::ptrdiff_t>((angleOf(ray.x(), ray.y()) - first) * kPerRadian);
     if (direction < 0 || direction >= static_cast<std::ptrdiff_t>(free_.size())) continue;
     const auto at = static_cast<std::size_t>(direction);
-    if (label == Label::kGround) {
-      free_[at] = std::max(free_[at], range);
-      continue;
-    }
     const auto cell = static_cast<std::size_t>(range / kCell);
     if (cell >= cells_) continue;
+    if (label == Label::kGround || unseen) {
+      const std::size_t coarse = cell / kCoarse;
+      (unseen ? unseen_ : seen_)[at * coarse_cells_ + coarse] += 1;
+      if (!unseen) free_[at] = std::max(free_[at], range);
+      continue;
+    }
     // What lies on the plane shows half as many pixels as what stands on it.
     const std::uint32_t weight = label == Label::kObstacle ? 1 : 2;
     Cell& counted = grid_[at * cells_ + cell];
@@ -138,24 +145,36 @@ float GroundScanner::rangeOf(std::size_t direction, std::uint32_t least) const {
   return kNothing;
 }
 
+/// @return whether the ground in a direction was seen to its end, and nowhere more of it not than
+/// was.
+bool GroundScanner::isFree(std::size_t direction) const {
+  constexpr std::uint16_t kFew = 2;  // [#] pixels that are looked at
+  if (free_[direction] < kSeenToTheEnd * static_cast<float>(scan_.range_max)) return false;
+  const auto end = static_cast<std::size_t>(free_[direction] / kCell) / kCoarse;
+  const std::size_t first = direction * coarse_cells_;
+  for (std::size_t i = first; i < first + end; ++i) {
+    if (unseen_[i] > seen_[i] && unseen_[i] >= kFew) return false;
+  }
+  return true;
+}
+
 const GroundScan& GroundScanner::scan(const DepthView& depth, const RayTable& rays,
                                       const Detection& detection, const ScanLimits& limits) {
   scan_ = GroundScan();
   if (!detection.found()) return scan_;
   begin(rays, detection, limits);
-  for (int v = 0; v < detection.image_height; v += kStep) addRow(v, depth, rays, detection, limits);
+  for (int v = 0; v < detection.image_height; v += kStep) {
+    addRow(v, depth, rays, detection, limits);
+  }
   const double share = detection.image_width * detection.image_height / (640.0 * 480.0);
   const auto least =
       static_cast<std::uint32_t>(std::max(std::ceil(kLeastPoints * share / (kStep * kStep)), 1.0));
   for (std::size_t i = 0; i < scan_.ranges.size(); ++i) {
-    scan_.ranges[i] = rangeOf(i, least);
-    const bool free = std::isnan(scan_.ranges[i]) &&
-                      free_[i] >= kSeenToTheEnd * static_cast<float>(scan_.range_max);
-    if (free) scan_.ranges[i] = std::numeric_limits<float>::infinity();
+    const float range = rangeOf(i, least);
     // Beyond what range_max promises a reading would not be one (REP 117).
-    if (scan_.ranges[i] > static_cast<float>(scan_.range_max)) {
-      scan_.ranges[i] = std::numeric_limits<float>::infinity();
-    }
+    const bool is_reading = range <= static_cast<float>(scan_.range_max);
+    const float otherwise = isFree(i) ? std::numeric_limits<float>::infinity() : kNothing;
+    scan_.ranges[i] = is_reading ? range : otherwise;
   }
   return scan_;
 }

@@ -54,13 +54,16 @@ class GroundScanner {
   void addRow(int v, const DepthView& depth, const RayTable& rays, const Detection& detection,
               const ScanLimits& limits);
   float rangeOf(std::size_t direction, std::uint32_t least) const;
+  bool isFree(std::size_t direction) const;
 
   GroundScan scan_;
-  Eigen::Matrix3f rotation_;  ///< R_ground_optical
-  float height_ = 0.0F;       ///< [m] of the camera
-  std::size_t cells_ = 0;     ///< [#] in a direction
-  std::vector<Cell> grid_;    ///< direction by direction, near to far
-  std::vector<float> free_;   ///< [m] farthest ground in a direction, 0: none
+  Eigen::Matrix3f rotation_;                  ///< R_ground_optical
+  float height_ = 0.0F;                       ///< [m] of the camera
+  std::size_t cells_ = 0;                     ///< [#] in a direction
+  std::vector<Cell> grid_;                    ///< direction by direction, near to far
+  std::vector<float> free_;                   ///< [m] farthest ground in a direction, 0: none
+  std::size_t coarse_cells_ = 0;              ///< [#] in a direction, four of the cells each
+  std::vector<std::uint16_t> seen_, unseen_;  ///< [#] pixels of ground, and of what is not known
 };
 
 }  // namespace dominant_plane_detection

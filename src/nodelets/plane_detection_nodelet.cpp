@@ -63,7 +63,7 @@ void PlaneDetectionNodelet::start() {
       [this](const DetectionInputs::Frame& frame) { onFrame(frame); });
   const NodeParameters own = loadNodeParameters(private_node);
   frames_ = std::make_unique<RobotFrames>(node);
-  body_ = std::make_unique<RobotBody>(private_node, own.base_frame, *frames_);
+  body_ = std::make_unique<RobotBody>(private_node, own, *frames_);
   prior_ = std::make_unique<PlanePrior>(node, own, *frames_);
   pictures_ = std::make_unique<PictureInput>(node, private_node, [this] { overlay_->onPicture(); });
   const auto listeners_changed = [this] { followListeners(); };
@@ -138,8 +138,8 @@ void PlaneDetectionNodelet::detect(const DetectionInputs::Frame& frame) {
   mount_service_->add(detection, frame.header.frame_id);
   learner_->add(frame, detection);
   outputs_.publish(frame, detection, time.count());
-  clouds_->publish(frame, detection);
   scan_->publish(frame, detection, detector_.parameters().range_max);
+  clouds_->publish(frame, detection);  // after the tf that they may be in
   overlay_->publish(frame, detection);
 }
 

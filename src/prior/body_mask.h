@@ -19,8 +19,9 @@ class BodyMask {
 
   /// @param rays of the image's camera.
   /// @param camera T_base_camera
-  /// @return the image without its readings in the boxes, in memory of the mask that is valid until
-  /// the next call; the image itself where it shows none of them.
+  /// @return the image with readings of a unit, or 1 mm, for those in the boxes, in memory of the
+  /// mask that is valid until the next call; the image itself where it shows none of them. Nothing
+  /// that near is trusted, and no ground is missing there.
   DepthView mask(const DepthView& depth, const RayTable& rays, const Eigen::Isometry3d& camera);
 
  private:
@@ -30,6 +31,7 @@ class BodyMask {
 
   static Region regionOf(const Box& box, const CameraModel& model, const Eigen::Isometry3d& camera);
   void copy(const DepthView& depth);
+  void take(const DepthView& depth, int u, int v);
 
   std::vector<Box> boxes_;
   std::vector<std::uint8_t> pixels_;

@@ -37,6 +37,7 @@ bool UpChoice::contradicts(double stamp, const Up& tf, const Up& gravity) {
 std::optional<KnownUp> UpChoice::choose(double stamp, const Candidates& candidates) {
   remark_.clear();
   const auto& [tf, gravity, tf_problem, gravity_problem] = candidates;
+  if (!tf || !gravity) contradicting_since_.reset();
   const bool passed_over = tf && gravity && contradicts(stamp, *tf, *gravity);
   if (tf && !passed_over) return KnownUp{*tf, UpSource::kTf};
   if (!passed_over) remark_ = tf_problem;

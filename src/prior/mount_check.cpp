@@ -8,13 +8,14 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr double kDegree = 0.0174533;  // [rad]
-constexpr double kWindow = 0.65;       // [s] of images that are averaged
-constexpr std::size_t kFewest = 6;     // [#] of them
-constexpr double kUsualTime = 20.0;    // [s] that the usual difference is averaged over
-constexpr double kUsualFrom = 3.0;     // [s] of images from which on it is known
-constexpr double kMostAfter = 150.0;   // [#] images that the numbers are averaged over
-constexpr double kRampPatience = 5.0;  // [s]
+constexpr double kDegree = 0.0174533;   // [rad]
+constexpr double kWindow = 0.65;        // [s] of images that are averaged
+constexpr std::size_t kFewest = 6;      // [#] of them, for which slow cameras may take longer
+constexpr double kLongestWindow = 3.0;  // [s]
+constexpr double kUsualTime = 20.0;     // [s] that the usual difference is averaged over
+constexpr double kUsualFrom = 3.0;      // [s] of images from which on it is known
+constexpr double kMostAfter = 150.0;    // [#] images that the numbers are averaged over
+constexpr double kRampPatience = 5.0;   // [s]
 /// What an uneven floor and a robot that rocks on it explain, as standard deviations; doors' sills
 /// and tiles are 5 mm high, wheels half a metre apart.
 constexpr double kFloorAngle = 0.5 * kDegree;  // [rad]
@@ -117,10 +118,12 @@ bool MountCheck::differs(const Mean& mean, double beyond) const {
 }
 
 void MountCheck::learn(const Image& image) {
-  const double since =
-      usual_time_ > 0.0 && recent_.size() > 1 ? recent_[1].stamp - recent_[0].stamp : 1e-3;
-  usual_time_ = std::min(usual_time_ + since, kUsualTime);
-  usual_ += since / usual_time_ * (image.difference - usual_);
+  // After a gap an image counts no more than any other.
+  constexpr double kLongest = 0.2;  // [s]
+  const double since = recent_.size() > 1 ? recent_[1].stamp - recent_[0].stamp : 0.0;
+  const double counts = std::clamp(since, 1e-3, kLongest);
+  usual_time_ = std::min(usual_time_ + counts, kUsualTime);
+  usual_ += counts / usual_time_ * (image.difference - usual_);
 }
 
 /// Both halves: no single image, and no bump. What was told holds until it is clearly over.
@@ -146,11 +149,15 @@ void MountCheck::follow(const Image& image) {
 }
 
 void MountCheck::add(double stamp, const Detection& detection, const Eigen::Isometry3d& camera) {
-  if (!recent_.empty() && stamp < recent_.back().stamp) reset();
+  if (!recent_.empty() && stamp < recent_.back().stamp) recent_.clear();
   if (!detection.found() || !(detection.covariance(0, 0) >= 0.0)) return;
   const Image image = compare(stamp, detection, camera);
   recent_.push_back(image);
-  while (stamp - recent_.front().stamp > kWindow) {
+  const auto is_over = [&] {
+    const double age = stamp - recent_.front().stamp;
+    return age > kLongestWindow || (age > kWindow && recent_.size() > kFewest);
+  };
+  while (is_over()) {
     if (!since_) learn(recent_.front());
     recent_.pop_front();
   }

@@ -35,7 +35,7 @@ struct MovedMount {
 /// be a ramp.
 class MountCheck {
  public:
-  /// @param stamp [s] of the image; one before the last begins anew.
+  /// @param stamp [s] of the image; after one before the last what is usual stays.
   /// @param detection a plane that is at the height tf expects; others say nothing.
   /// @param camera T_base_camera by tf.
   void add(double stamp, const Detection& detection, const Eigen::Isometry3d& camera);

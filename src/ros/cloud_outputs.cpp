@@ -52,7 +52,7 @@ void CloudOutputs::publish(const DetectionInputs::Frame& frame, const Detection&
   form.coloured = parameters_.coloured_clouds;
   if (form.coloured) {
     // That of the image before will do: clouds do not wait.
-    constexpr double kTolerance = 0.05;  // [s]
+    constexpr double kTolerance = 0.1;  // [s]
     picture =
         pictures_.find(frame.header, detection.image_width, detection.image_height, kTolerance).bgr;
     if (picture) form.bgr = &*picture;

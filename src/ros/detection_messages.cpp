@@ -20,6 +20,8 @@ Message asMessage(const Eigen::Vector3d& vector) {
   return message;
 }
 
+constexpr float kNearest = 0.01F;  // [m] what is nearer was masked
+
 std_msgs::ColorRGBA colour(float red, float green, float blue, float alpha) {
   std_msgs::ColorRGBA message;
   message.r = red;
@@ -149,7 +151,7 @@ sensor_msgs::ImagePtr heightMessage(const std_msgs::Header& header, const DepthV
                                          static_cast<std::size_t>(v) * message->step);
     for (int u = 0; u < detection.image_width; ++u) {
       const float z = metresAt(depth, u, v);
-      const bool read = z > 0.0F && std::isfinite(z);
+      const bool read = z > kNearest && std::isfinite(z);
       row[u] = read ? z * normal.dot(rays.ray(u, v)) + distance
                     : std::numeric_limits<float>::quiet_NaN();
     }

@@ -1,6 +1,7 @@
 #include "ros/gravity_input.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "ros/topic_names.h"
@@ -40,13 +41,13 @@ std::optional<Eigen::Vector3d> rateOf(const sensor_msgs::Imu& imu) {
 void GravityInput::subscribe() {
   data_ = node_.subscribe<sensor_msgs::Imu>(topics::kImuData, kQueue,
                                             [this](const sensor_msgs::ImuConstPtr& imu) {
-                                              data_stamp_ = imu->header.stamp;
+                                              data_stamp_ = imu->header.stamp.toSec();
                                               onImu(*imu);
                                             });
   raw_ = node_.subscribe<sensor_msgs::Imu>(
       topics::kImu, kQueue, [this](const sensor_msgs::ImuConstPtr& imu) {
         const double behind =
-            data_stamp_ ? (imu->header.stamp - *data_stamp_).toSec() : 2.0 * kRawAfter;
+            data_stamp_ ? imu->header.stamp.toSec() - *data_stamp_ : 2.0 * kRawAfter;
         if (std::abs(behind) > kRawAfter) onImu(*imu);
       });
 }
@@ -59,7 +60,7 @@ void GravityInput::unsubscribe() {
 
 void GravityInput::reset() {
   data_stamp_.reset();
-  frame_.clear();
+  frame_.reset();
   filter_.reset();
   turns_ = TurnHistory();
   by_orientation_.reset();
@@ -83,7 +84,7 @@ void GravityInput::onImu(const sensor_msgs::Imu& imu) {
 
 /// The sensor is fixed to the camera: whatever is known of it last will do.
 std::optional<Eigen::Quaterniond> GravityInput::toOptical(const std::string& optical_frame) {
-  const RobotFrames::Pose pose = frames_.pose(optical_frame, frame_, ros::Time(0));
+  const RobotFrames::Pose pose = frames_.pose(optical_frame, *frame_, ros::Time(0));
   if (!pose.transform) {
     problem_ = pose.problem;
     return std::nullopt;
@@ -93,17 +94,17 @@ std::optional<Eigen::Quaterniond> GravityInput::toOptical(const std::string& opt
 
 std::optional<Up> GravityInput::up(const std::string& optical_frame, const ros::Time& stamp) {
   problem_.clear();
-  if (frame_.empty()) return std::nullopt;
+  if (!frame_) return std::nullopt;
   std::optional<Up> up = filter_.up(stamp.toSec());
   if (!up) {
-    problem_ = "Gravity is not known of the image's time: expected steady readings of " + frame_ +
+    problem_ = "Gravity is not known of the image's time: expected steady readings of " + *frame_ +
                " within 0.2 s.";
     return std::nullopt;
   }
   if (by_orientation_) {
     const double apart = std::atan2(by_orientation_->cross(up->direction).norm(),
                                     by_orientation_->dot(up->direction));
-    if (apart < kAgree + up->error) up = Up{*by_orientation_, kOrientationError};
+    if (apart < kAgree + up->error) up = Up{*by_orientation_, std::max(kOrientationError, apart)};
   }
   const auto rotation = toOptical(optical_frame);
   if (!rotation) return std::nullopt;

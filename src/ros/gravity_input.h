@@ -41,8 +41,8 @@ class GravityInput {
   ros::NodeHandle node_;
   RobotFrames& frames_;
   ros::Subscriber data_, raw_;
-  std::string frame_;                    ///< of the messages; empty: none has come
-  std::optional<ros::Time> data_stamp_;  ///< of the last message of imu/data
+  std::optional<std::string> frame_;  ///< of the messages; nothing: none has come
+  std::optional<double> data_stamp_;  ///< [s] of the last message of imu/data
   GravityFilter filter_;
   TurnHistory turns_;
   std::optional<Eigen::Vector3d>

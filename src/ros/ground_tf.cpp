@@ -35,7 +35,13 @@ bool GroundTf::hasListened() {
 /// @param found the child's parent by tf.
 bool GroundTf::isFree(const std::string& child, const std::string& parent,
                       const std::string& found) {
-  if (found.empty() || found == parent) return true;
+  // The image's frame may have become another one.
+  const bool ours = found == plainFrame(parent) || parents_.count(found) != 0;
+  return found.empty() || ours || refuse(child, parent, found);
+}
+
+bool GroundTf::refuse(const std::string& child, const std::string& parent,
+                      const std::string& found) {
   conflict_ = true;
   ROS_ERROR_STREAM("No tf goes out from " << parent << " to " << child << ": tf has it below "
                                           << found
@@ -49,6 +55,7 @@ bool GroundTf::publishGround(const std_msgs::Header& header,
                              const Eigen::Isometry3d& T_ground_optical) {
   const std::string& child = parameters_.ground_frame;
   if (!isFree(child, header.frame_id, frames_.parentOf(child))) return false;
+  parents_.insert(plainFrame(header.frame_id));
   frames_.broadcast(header.frame_id, child, header.stamp, T_ground_optical.inverse());
   return true;
 }
@@ -59,7 +66,7 @@ std::string GroundTf::rootOf(const std::string& frame, bool& below_base) {
   below_base = false;
   for (int i = 0; i < kMostAncestors; ++i) {
     const std::string parent = frames_.parentOf(root);
-    below_base = below_base || parent == parameters_.base_frame;
+    below_base = below_base || parent == plainFrame(parameters_.base_frame);
     if (parent.empty() || below_base) return root;
     root = parent;
   }
@@ -70,12 +77,12 @@ bool GroundTf::publishBase(const std_msgs::Header& header,
                            const Eigen::Isometry3d& T_ground_optical) {
   bool below_base = false;
   const std::string root = rootOf(header.frame_id, below_base);
-  const bool ours = root == root_;
-  if (below_base && !ours) return isFree(root, "a plane", parameters_.base_frame);
-  const RobotFrames::Pose pose = frames_.pose(header.frame_id, root, ros::Time(0));
+  const bool ours = roots_.count(root) != 0;
+  if (below_base && !ours) return refuse(root, parameters_.base_frame, parameters_.base_frame);
+  const RobotFrames::Pose pose = frames_.pose(header.frame_id, root, header.stamp);
   if (!pose.transform || !isFree(root, parameters_.base_frame, frames_.parentOf(root)))
     return false;
-  root_ = root;
+  roots_.insert(root);
   frames_.broadcast(parameters_.base_frame, root, header.stamp, T_ground_optical * *pose.transform);
   return true;
 }

@@ -3,6 +3,7 @@
 #include <ros/time.h>
 
 #include <optional>
+#include <set>
 #include <string>
 
 #include "dominant_plane_detection/detection.h"
@@ -21,7 +22,7 @@ class GroundTf {
       : parameters_(parameters), frames_(frames) {}
 
   /// @return whether it goes out with every plane, whoever listens.
-  bool always() const { return parameters_.publish_tf != TfOutput::kNone; }
+  bool always() const { return parameters_.publish_tf != TfOutput::kNone && !conflict_; }
   /// Broadcasts the ground of a plane.
   /// @return the frame that is on the ground now; nothing where it cannot go out.
   /// @pre detection.found()
@@ -32,12 +33,14 @@ class GroundTf {
   bool publishGround(const std_msgs::Header& header, const Eigen::Isometry3d& T_ground_optical);
   bool publishBase(const std_msgs::Header& header, const Eigen::Isometry3d& T_ground_optical);
   bool isFree(const std::string& child, const std::string& parent, const std::string& found);
+  bool refuse(const std::string& child, const std::string& parent, const std::string& found);
   std::string rootOf(const std::string& frame, bool& below_base);
 
   NodeParameters parameters_;
   RobotFrames& frames_;
-  std::string root_;       ///< of the camera's frames, once it is known
-  ros::SteadyTime begin_;  ///< of listening to what is there
+  std::set<std::string> parents_;  ///< that the ground went out below
+  std::set<std::string> roots_;    ///< of cameras' frames that went out below the base
+  ros::SteadyTime begin_;          ///< of listening to what is there
   bool conflict_ =
       false;  ///< somebody else publishes the transform: for good, as both would flicker
 };

@@ -25,6 +25,15 @@ std::vector<std::string> refuseContradictions(NodeParameters& p) {
     p.clearance_height = NodeParameters().clearance_height;
     p.max_obstacle_height = NodeParameters().max_obstacle_height;
   }
+  if (p.smoothing_time > 0.0 && !p.tracking) {
+    errors.emplace_back("smoothing_time needs tracking");
+    p.smoothing_time = 0.0;
+  }
+  if (!p.base_frame.empty() && p.base_frame == p.ground_frame) {
+    errors.emplace_back("base_frame and ground_frame have to be two frames, got " + p.base_frame +
+                        " for both");
+    p.base_frame.clear();
+  }
   if (!p.base_frame.empty()) return errors;
   if (p.publish_tf == TfOutput::kBase) {
     errors.emplace_back("publish_tf base needs a base_frame, got none");

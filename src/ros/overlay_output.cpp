@@ -44,7 +44,7 @@ bool OverlayOutput::tryPicture() {
 
 /// Publishes what waits, over the picture or else over the grey one.
 void OverlayOutput::publishWaiting(const std::optional<cv::Mat>& picture) {
-  cv::Mat painted = picture.value_or(waiting_->grey);
+  cv::Mat painted = picture ? picture->clone() : waiting_->grey;
   paintOverlay(waiting_->detection, painted);
   publisher_.publish(
       cv_bridge::CvImage(waiting_->header, sensor_msgs::image_encodings::BGR8, painted)

@@ -32,6 +32,8 @@ void PictureInput::follow(bool wanted) {
 void PictureInput::end() {
   pictures_.shutdown();
   recent_.clear();
+  read_.reset();
+  bgr_.reset();
 }
 
 void PictureInput::beginImage(const std::string& frame_id) {
@@ -53,7 +55,7 @@ void PictureInput::onPicture(const sensor_msgs::ImageConstPtr& picture) {
 /// @return the picture that is nearest in time; null while there is none.
 sensor_msgs::ImageConstPtr PictureInput::nearest(const ros::Time& stamp, double tolerance) const {
   const auto apart = [&](const sensor_msgs::ImageConstPtr& picture) {
-    return std::abs((picture->header.stamp - stamp).toSec());
+    return std::abs(picture->header.stamp.toSec() - stamp.toSec());
   };
   const auto found =
       std::min_element(recent_.begin(), recent_.end(),
@@ -65,7 +67,11 @@ PictureInput::Found PictureInput::find(const std_msgs::Header& header, int width
                                        double tolerance) {
   const sensor_msgs::ImageConstPtr picture = nearest(header.stamp, tolerance);
   if (!picture) return {};
-  if (picture->header.frame_id == header.frame_id) return {true, read(*picture, width, height)};
+  if (picture->header.frame_id == header.frame_id) {
+    if (picture != read_) bgr_ = read(*picture, width, height);
+    read_ = picture;
+    return {true, bgr_};
+  }
   ROS_WARN_STREAM("Pictures are not used: expected some in the depth's frame "
                   << header.frame_id << ", as depth registration gives them, got some in "
                   << picture->header.frame_id << " on " << pictures_.getTopic() << ".");

@@ -20,8 +20,9 @@ class PictureInput {
  public:
   /// What there is of an image's time.
   struct Found {
-    bool there = false;          ///< nothing more is to be waited for
-    std::optional<cv::Mat> bgr;  ///< 8 bits, of the image's size; nothing where it is of no use
+    bool there = false;  ///< nothing more is to be waited for
+    /// 8 bits, of the image's size, not to be written to; nothing where it is of no use
+    std::optional<cv::Mat> bgr;
   };
 
   /// @param node pictures come on a topic relative to it.
@@ -53,6 +54,8 @@ class PictureInput {
   std::function<void()> on_picture_;
   image_transport::Subscriber pictures_;
   std::deque<sensor_msgs::ImageConstPtr> recent_;
+  sensor_msgs::ImageConstPtr read_;  ///< the picture that was read last, and what it gave
+  std::optional<cv::Mat> bgr_;
   bool wanted_ = false;
   /// Frame of depth images for which pictures are of no use; they are not subscribed meanwhile.
   std::string unregistered_frame_;

@@ -43,12 +43,19 @@ void PlanePrior::subscribe() {
   if (parameters_.use_imu) gravity_.subscribe();
 }
 
+/// What is usual of the mount stays.
 void PlanePrior::unsubscribe() {
   gravity_.unsubscribe();
+  frames_.rest();
   last_ = std_msgs::Header();
   track_.reset();
-  mount_check_.reset();
-  remark_since_.reset();
+  forget();
+}
+
+void PlanePrior::forget() {
+  choice_ = UpChoice();
+  remark_ = Remark();
+  compared_.reset();
   elsewhere_ = 0;
   status_ = Status();
 }
@@ -56,12 +63,12 @@ void PlanePrior::unsubscribe() {
 /// A bag that begins again, or another camera.
 void PlanePrior::beginAnewAfterJumps(const std_msgs::Header& header) {
   const bool first = last_.frame_id.empty();
-  if (!first && (header.frame_id != last_.frame_id || header.stamp < last_.stamp)) {
+  const bool other_camera = !first && header.frame_id != last_.frame_id;
+  if (other_camera) mount_check_.reset();
+  if (other_camera || (!first && header.stamp < last_.stamp)) {
     track_.reset();
-    mount_check_.reset();
     gravity_.reset();
-    choice_ = UpChoice();
-    elsewhere_ = 0;
+    forget();
   }
   last_ = header;
 }
@@ -119,15 +126,17 @@ Prior PlanePrior::of(const DetectionInputs::Frame& frame) {
 }
 
 /// @return a remark that has lasted for a second: at the start everything comes one after the
-/// other.
-std::string PlanePrior::lasting(double stamp, const std::string& remark) {
+/// other. It is over after a second without it, so that what comes and goes is told as well.
+std::string PlanePrior::lasting(double stamp, const std::string& text) {
   constexpr double kPatience = 1.0;  // [s]
-  if (remark.empty()) {
-    remark_since_.reset();
-    return remark;
+  if (!text.empty()) {
+    if (remark_.text.empty()) remark_.since = stamp;
+    remark_.text = text;
+    remark_.last = stamp;
+  } else if (!(stamp - remark_.last < kPatience)) {
+    remark_ = Remark();
   }
-  if (!remark_since_ || stamp < *remark_since_) remark_since_ = stamp;
-  return stamp - *remark_since_ >= kPatience ? remark : "";
+  return stamp - remark_.since >= kPatience ? remark_.text : "";
 }
 
 void PlanePrior::add(const DetectionInputs::Frame& frame, const Detection& detection) {
@@ -135,11 +144,23 @@ void PlanePrior::add(const DetectionInputs::Frame& frame, const Detection& detec
   compareWithTf(frame.header, detection);
 }
 
+/// Only tf of the image's very time says something about the mount.
 void PlanePrior::compareWithTf(const std_msgs::Header& header, const Detection& detection) {
-  if (!height_ || !detection.found()) return;
+  constexpr double kPatience = 1.0;  // [s]
+  const double stamp = header.stamp.toSec();
+  if (!camera_ || !height_ || !detection.found()) {
+    if (compared_ && stamp - *compared_ < kPatience) return;
+    report(status_.mount, "");
+    elsewhere_ = 0;
+    return;
+  }
+  compared_ = stamp;
   const double off = detection.distance - height_->height;
-  if (std::abs(off) > height_->tolerance) {
-    if (++elsewhere_ < kManyElsewhere) return;
+  elsewhere_ = std::abs(off) > height_->tolerance ? elsewhere_ + 1 : 0;
+  if (elsewhere_ == 0) {
+    mount_check_.add(stamp, detection, *camera_);
+    report(status_.mount, mount_check_.moved() ? mount_check_.moved()->text() : "");
+  } else if (elsewhere_ >= kManyElsewhere) {
     char text[200];
     std::snprintf(
         text, sizeof(text),
@@ -147,11 +168,7 @@ void PlanePrior::compareWithTf(const std_msgs::Header& header, const Detection& 
         "mount is not where tf has it.",
         std::abs(off), off < 0.0 ? "above" : "below", parameters_.base_frame.c_str());
     report(status_.mount, text);
-    return;
   }
-  elsewhere_ = 0;
-  if (camera_) mount_check_.add(header.stamp.toSec(), detection, *camera_);
-  report(status_.mount, mount_check_.moved() ? mount_check_.moved()->text() : "");
 }
 
 /// Numbers change from image to image, and are told once: the log has what begins.

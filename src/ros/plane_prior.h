@@ -40,10 +40,17 @@ class PlanePrior {
   const Status& status() const { return status_; }
 
  private:
+  /// Something that is wanted and not taken.
+  struct Remark {
+    std::string text;
+    double since = 0.0, last = 0.0;  ///< [s] the first and the last image that had it
+  };
+
   void beginAnewAfterJumps(const std_msgs::Header& header);
   UpChoice::Candidates candidates(const std_msgs::Header& header);
   void compareWithTf(const std_msgs::Header& header, const Detection& detection);
-  std::string lasting(double stamp, const std::string& remark);
+  void forget();
+  std::string lasting(double stamp, const std::string& text);
   static void report(std::string& said, const std::string& now);
 
   NodeParameters parameters_;
@@ -56,7 +63,8 @@ class PlanePrior {
   std_msgs::Header last_;
   std::optional<Eigen::Isometry3d> camera_;  ///< T_base_camera at the image, from tf of its time
   std::optional<Prior::ExpectedHeight> height_;
-  std::optional<double> remark_since_;  ///< [s]
+  Remark remark_;
+  std::optional<double> compared_;  ///< [s] when a plane was last held against tf
   int elsewhere_ = 0;  ///< [#] images in a row with a plane at another height than tf expects
   Status status_;
 };

@@ -45,15 +45,17 @@ std::vector<BodyMask::Box> asBoxes(XmlRpcValue value) {
   return boxes;
 }
 
-RobotBody::RobotBody(const ros::NodeHandle& private_node, const std::string& base_frame,
+RobotBody::RobotBody(const ros::NodeHandle& private_node, const NodeParameters& parameters,
                      RobotFrames& frames)
-    : base_frame_(base_frame), frames_(frames) {
+    : base_frame_(parameters.base_frame), frames_(frames) {
   XmlRpcValue value;
   if (!private_node.getParam("robot_body", value)) return;
   try {
-    if (base_frame.empty()) {
+    if (base_frame_.empty() || parameters.publish_tf == TfOutput::kBase) {
       throw std::invalid_argument(
-          "robot_body: expected a base_frame that its boxes are in, got none");
+          "robot_body: expected a base_frame that its boxes are in and that tf has before the "
+          "plane "
+          "is known");
     }
     mask_ = BodyMask(asBoxes(value));
   } catch (const std::exception& error) {

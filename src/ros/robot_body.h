@@ -7,6 +7,7 @@
 
 #include "prior/body_mask.h"
 #include "ros/detection_inputs.h"
+#include "ros/node_parameters.h"
 #include "ros/robot_frames.h"
 
 namespace dominant_plane_detection {
@@ -14,8 +15,8 @@ namespace dominant_plane_detection {
 /// The robot's own body, by the parameter `robot_body`, which is taken out of the images.
 class RobotBody {
  public:
-  /// @param base_frame that the boxes are in.
-  RobotBody(const ros::NodeHandle& private_node, const std::string& base_frame,
+  /// @param parameters with the frame that the boxes are in.
+  RobotBody(const ros::NodeHandle& private_node, const NodeParameters& parameters,
             RobotFrames& frames);
 
   /// @return the image without the body, valid until the next call; the image itself where there is

@@ -9,9 +9,13 @@ constexpr double kLate = 0.05;  // [s] by which a transform may be older than an
 
 }  // namespace
 
+std::string plainFrame(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
 void RobotFrames::listen() {
   if (listener_) return;
-  buffer_ = std::make_unique<tf2_ros::Buffer>();
+  if (!buffer_) buffer_ = std::make_unique<tf2_ros::Buffer>();
   // Without a thread of its own: callbacks come in the node's queue.
   listener_ = std::make_unique<tf2_ros::TransformListener>(*buffer_, node_, false);
 }
@@ -19,34 +23,34 @@ void RobotFrames::listen() {
 RobotFrames::Pose RobotFrames::pose(const std::string& target, const std::string& source,
                                     const ros::Time& stamp) {
   Pose pose;
-  if (target == source) {
+  if (plainFrame(target) == plainFrame(source)) {
     pose.transform = Eigen::Isometry3d::Identity();
     pose.exact = true;
     return pose;
   }
   listen();
   const auto look = [&](const ros::Time& time) {
-    return buffer_->lookupTransform(target, source, time);
+    return buffer_->lookupTransform(plainFrame(target), plainFrame(source), time);
   };
+  const std::string problem = "No tf from " + target + " to " + source;
   try {
     pose.transform = tf2::transformToEigen(look(stamp));
-    pose.exact = true;
+    pose.exact = !stamp.isZero();  // that is the latest, whatever its time
     return pose;
   } catch (const tf2::ExtrapolationException& error) {
-    pose.problem =
-        "No tf from " + target + " to " + source + " of the image's time: " + error.what();
-  } catch (const tf2::TransformException& error) {
-    pose.problem = "No tf from " + target + " to " + source + ": " + error.what();
+    pose.problem = problem + " of the image's time: " + error.what();
+  } catch (const std::exception& error) {
+    pose.problem = problem + ": " + error.what();
     return pose;
   }
   try {
     const geometry_msgs::TransformStamped latest = look(ros::Time(0));
-    const double late = (stamp - latest.header.stamp).toSec();
+    const double late = stamp.toSec() - latest.header.stamp.toSec();
     if (late >= 0.0 && late <= kLate) {
       pose.transform = tf2::transformToEigen(latest);
       pose.problem.clear();
     }
-  } catch (const tf2::TransformException&) {
+  } catch (const std::exception&) {
     // It has said why above.
   }
   return pose;
@@ -55,7 +59,7 @@ RobotFrames::Pose RobotFrames::pose(const std::string& target, const std::string
 std::string RobotFrames::parentOf(const std::string& frame) {
   listen();
   std::string parent;
-  return buffer_->_getParent(frame, ros::Time(0), parent) ? parent : "";
+  return buffer_->_getParent(plainFrame(frame), ros::Time(0), parent) ? parent : "";
 }
 
 void RobotFrames::broadcast(const std::string& parent, const std::string& child,
@@ -63,9 +67,11 @@ void RobotFrames::broadcast(const std::string& parent, const std::string& child,
   if (!broadcaster_) broadcaster_ = std::make_unique<tf2_ros::TransformBroadcaster>();
   geometry_msgs::TransformStamped message = tf2::eigenToTransform(transform);
   message.header.stamp = stamp;
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
+  message.header.frame_id = plainFrame(parent);
+  message.child_frame_id = plainFrame(child);
   broadcaster_->sendTransform(message);
+  // Known here at once, for what else is made of this image.
+  if (buffer_) buffer_->setTransform(message, "dominant_plane_detection", false);
 }
 
 }  // namespace dominant_plane_detection

@@ -13,6 +13,9 @@
 
 namespace dominant_plane_detection {
 
+/// @return a frame's name as tf2 has it: old recordings have a slash before it.
+std::string plainFrame(const std::string& frame);
+
 /// tf as a detection needs it: it never waits.
 ///
 /// All of it happens in the thread of the node's callback queue, in which transforms come as well.
@@ -28,6 +31,8 @@ class RobotFrames {
 
   /// Subscribes transforms; else that is done with the first call that needs them.
   void listen();
+  /// Ends that; what is known stays.
+  void rest() { listener_.reset(); }
   Pose pose(const std::string& target, const std::string& source, const ros::Time& stamp);
   /// @return empty where a frame has none, or is not known.
   std::string parentOf(const std::string& frame);

@@ -295,7 +295,8 @@ TEST(Detector, BadInputIsExplained) {
     expected.expected_height = height;
     expectBad(depth.view(), camera, "positive height", expected);
   }
-  for (const auto& plane : {Prior::PredictedPlane{kUp, kNaN}, {1.01 * kUp.normalized(), 1.0},
+  for (const auto& plane : {Prior::PredictedPlane{kUp, kNaN},
+                            {1.01 * kUp.normalized(), 1.0},
                             {kUp.normalized(), 1.0, unknownCovariance(), 1.0},
                             {kUp.normalized(), -1.0}}) {
     Prior predicted;

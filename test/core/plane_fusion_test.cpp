@@ -29,8 +29,7 @@ UncertainPlane seen() { return {kNormal, kDistance, covarianceOf(kNormal, kAngle
 
 /// @param turn [rad] about an axis across the normal. @param lift [m]
 Prior::PredictedPlane predicted(double turn, double lift, double weight, double scale = 1.0) {
-  const Eigen::Vector3d normal =
-      Eigen::AngleAxisd(turn, kNormal.unitOrthogonal()) * kNormal;
+  const Eigen::Vector3d normal = Eigen::AngleAxisd(turn, kNormal.unitOrthogonal()) * kNormal;
   return {normal, kDistance + lift, covarianceOf(normal, scale * kAngle, scale * kHeight), weight};
 }
 

@@ -153,6 +153,23 @@ TEST(PlaneSelection, PiecesOfOneFloorHaveAlmostOneHeight) {
   EXPECT_TRUE(selection.tookLast());
 }
 
+/// Two degrees that a sensor's error bends a floor by, or a table.
+TEST(PlaneSelection, HeightsAreComparedWherePlanesAre) {
+  const double bend = 0.035;  // [rad] 11 cm three metres ahead
+  const HessePlane near = plane(0.0, 1.0);
+  const Eigen::Vector3d ahead(0.0, 1.0, 3.0);
+  PlaneSelection bent(lowestLimits());
+  bent.consider(near, 900);
+  const Eigen::Vector3d normal = plane(bend, 1.0).normal;
+  bent.consider({normal, normal.dot(ahead)}, 400, INFINITY, ahead);
+  EXPECT_GT(normal.dot(ahead), 1.1);
+  EXPECT_FALSE(bent.tookLast());
+  // A floor 20 cm lower there.
+  const Eigen::Vector3d below(0.0, 1.2, 3.0);
+  bent.consider({near.normal, 1.2}, 400, INFINITY, below);
+  EXPECT_TRUE(bent.tookLast());
+}
+
 TEST(PlaneSelection, TheExpectedHeightComesBeforeSizeAndDepth) {
   for (const bool lowest : {false, true}) {
     PlaneLimits limits = lowest ? lowestLimits() : kLimits;
@@ -174,6 +191,16 @@ TEST(PlaneSelection, TheExpectedHeightComesBeforeSizeAndDepth) {
     EXPECT_EQ(selection.toBeat(), 150U);
     EXPECT_FALSE(selection.isOpen(150));
   }
+}
+
+TEST(PlaneSelection, TheReasonSaysWhichLimitItWas) {
+  PlaneLimits limits = lowestLimits();
+  limits.max_tilt = 0.3;
+  PlaneSelection selection(limits);
+  selection.consider(plane(0.5, 1.0), 300);
+  EXPECT_EQ(reason(selection),
+            "The largest plane is tilted by 0.500 rad from the expected up direction, more than a "
+            "level one may be (prefer), 0.300 rad.");
 }
 
 }  // namespace

@@ -151,6 +151,20 @@ TEST(GroundScanner, ReadingsFollowRep117) {
   EXPECT_EQ(sight.at(0.1), kInfinity);
 }
 
+/// A black object or a hole: the floor behind it does not make the direction free.
+TEST(GroundScanner, WhatIsNotSeenOnTheWayIsNotFree) {
+  for (const Label label : {Label::kUnknown, Label::kMissingGround}) {
+    Sight sight(0.35, 0.0);
+    sight.mark(0.0, 1.4, label);
+    sight.mark(0.0, 1.7, Label::kGround);
+    EXPECT_TRUE(std::isnan(sight.at(0.0)));
+    EXPECT_EQ(sight.at(0.15), std::numeric_limits<double>::infinity());
+    // Nor does something that is beyond the range.
+    sight.addPost(0.0, 4.5, 0.0, 1.0);
+    EXPECT_TRUE(std::isnan(sight.at(0.0)));
+  }
+}
+
 TEST(GroundScanner, OnlyWhatTheRobotTouchesCounts) {
   Sight sight(0.3, 0.0);
   sight.addPost(0.0, 1.6, 0.0, 0.05);

@@ -109,6 +109,7 @@ TEST(ScanScenes, WithTheErrorsOfSensorsReadingsAreWhereThingsAre) {
     print(name, figures);
     EXPECT_GE(figures.low_seen, 0.9 * figures.low) << name;
     EXPECT_GE(figures.high_seen, 0.9 * figures.high) << name;
+    EXPECT_LE(figures.ghosts, 4 * images) << name;
     EXPECT_LT(median(figures.off), 0.025) << name;
     EXPECT_LT(median(figures.relative), 0.02) << name;
   }

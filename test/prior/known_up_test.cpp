@@ -57,6 +57,10 @@ TEST(UpChoice, TfThatContradictsGravityForASecondIsPassedOver) {
   EXPECT_EQ(source(3.3, 16.0, 2.0 * kDegree), UpSource::kTf);
   EXPECT_EQ(source(3.4, 16.0, 0.0), UpSource::kTf);
   EXPECT_EQ(source(4.4, 16.0, 0.0), UpSource::kImu);
+  // What is missing for a moment contradicts nothing.
+  EXPECT_EQ(choice.choose(4.5, {up(0.0), std::nullopt, "", ""})->source, UpSource::kTf);
+  EXPECT_EQ(source(4.6, 16.0, 0.0), UpSource::kTf);
+  EXPECT_EQ(source(5.6, 16.0, 0.0), UpSource::kImu);
   // Time that goes back begins anew.
   EXPECT_EQ(source(1.0, 16.0, 0.0), UpSource::kTf);
 }

@@ -142,6 +142,7 @@ TEST(MountKnock, IsToldWithinASecondWithItsNumbers) {
   }
   std::cout << "told " << told << " of " << all << ", within 0.3 deg and 5 mm " << precise << "\n";
   EXPECT_EQ(told, all);
+  EXPECT_GE(precise, 2 * all / 3);
 }
 
 TEST(MountKnock, DrivingAloneIsNone) {

@@ -96,20 +96,24 @@ class Parameters(unittest.TestCase):
         for name, node in nodes.items():
             arguments = {"bag": "/some.bag"} if name == "replay" else {}
             plain = parameters(load(name, **arguments), node)
-            self.assertEqual(plain["base_frame"], "base_link" if name == "pioneer" else "", name)
-            self.assertIs(plain["use_imu"], True)
+            # What is not asked for stays as the parameters' file has it.
+            self.assertEqual(plain.get("base_frame"), "base_link" if name == "pioneer" else None,
+                             name)
+            for key in ("publish_tf", "use_imu"):
+                self.assertNotIn(key, plain, name)
             told = load(name, base_frame="my_base", imu="/my_imu", **arguments)
             self.assertEqual(parameters(told, node)["base_frame"], "my_base", name)
             detection, = [n for n in told.nodes if n.name == "plane_detection"]
             self.assertEqual(dict(detection.remap_args)["imu/data_raw"], "/my_imu", name)
-        for name in ("pioneer", "handheld", "detection"):
+        for name in nodes:
+            arguments = {"bag": "/some.bag"} if name == "replay" else {"rectified": "true"}
             told = load(name, ground_frame="my_ground", publish_tf="ground", use_imu="false",
-                        rectified="true")
+                        **arguments)
             told = parameters(told, nodes[name])
             self.assertEqual(told["ground_frame"], "my_ground", name)
             self.assertEqual(told["publish_tf"], "ground", name)
             self.assertIs(told["use_imu"], False, name)
-            self.assertIs(told["rectified"], True, name)
+            self.assertIs(told["rectified"], name != "replay", name)
 
     def test_calibrations_reach_the_driver(self):
         for name in ("pioneer", "handheld"):

@@ -142,7 +142,13 @@ TEST(NodeParameters, ContradictionsGoBackToTheDefaults) {
   parameters.base_frame = "base_link";
   parameters.publish_tf = TfOutput::kBase;
   parameters.clouds_in_base_frame = true;
+  parameters.smoothing_time = 0.5;
   EXPECT_TRUE(refuseContradictions(parameters).empty());
+  parameters.tracking = false;
+  parameters.ground_frame = "base_link";
+  EXPECT_EQ(refuseContradictions(parameters).size(), 4U);  // and what then needs a base_frame
+  EXPECT_EQ(parameters.smoothing_time, 0.0);
+  EXPECT_EQ(parameters.base_frame, "");
 }
 
 TEST(NodeParameters, TheRobotsBodyIsAListOfBoxes) {

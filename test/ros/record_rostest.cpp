@@ -88,8 +88,9 @@ TEST_F(Record, WritesWhatReplayNeeds) {
   for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
     topics.insert(connection->topic);
   }
-  EXPECT_EQ(topics, (std::set<std::string>{"/camera/depth/camera_info", "/camera/depth/image_raw",
-                                           "/camera/rgb/image_raw", "/tf_static"}));
+  EXPECT_EQ(topics,
+            (std::set<std::string>{"/camera/depth/camera_info", "/camera/depth/image_raw",
+                                   "/camera/imu/data_raw", "/camera/rgb/image_raw", "/tf_static"}));
   expectPairs("/camera/depth");
 }
 
