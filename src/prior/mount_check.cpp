@@ -24,6 +24,7 @@ constexpr double kFloorHeight = 0.005;         // [m]
 /// images.
 constexpr double kBeyond = 16.27;
 constexpr double kHalfBeyond = 7.81;
+constexpr double kAgrees = 2.37;  // 50 %
 /// A ramp is steeper, and meets the ground as far ahead.
 constexpr double kLeastRamp = 2.0 * kDegree;  // [rad]
 constexpr double kRampNear = 0.5;             // [m]
@@ -110,11 +111,14 @@ MountCheck::Mean MountCheck::meanOf(std::size_t begin, std::size_t end) const {
   return mean;
 }
 
+/// Where the plane is as tf has it all is well, whatever was usual: tf may have been put right.
 bool MountCheck::differs(const Mean& mean, double beyond) const {
-  const bool from_tf = chiSquared(mean.difference, mean.covariance + unevenFloor()) > beyond;
-  const bool from_usual =
-      usual_time_ > kUsualFrom && chiSquared(mean.difference - usual_, unevenFloor()) > beyond;
-  return from_tf || from_usual;
+  const double from_tf = chiSquared(mean.difference, mean.covariance + unevenFloor());
+  const bool agrees = chiSquared(mean.difference, unevenFloor()) < kAgrees;
+  const double from_usual = usual_time_ > kUsualFrom && !agrees
+                                ? chiSquared(mean.difference - usual_, unevenFloor())
+                                : 0.0;
+  return std::max(from_tf, from_usual) > beyond;
 }
 
 void MountCheck::learn(const Image& image) {

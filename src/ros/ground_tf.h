@@ -41,8 +41,8 @@ class GroundTf {
   std::set<std::string> parents_;  ///< that the ground went out below
   std::set<std::string> roots_;    ///< of cameras' frames that went out below the base
   ros::SteadyTime begin_;          ///< of listening to what is there
-  bool conflict_ =
-      false;  ///< somebody else publishes the transform: for good, as both would flicker
+  /// Somebody else publishes the transform: for good, as both would flicker.
+  bool conflict_ = false;
 };
 
 }  // namespace dominant_plane_detection

@@ -206,5 +206,13 @@ TEST(MountCheck, TimeThatGoesBackLeavesWhatIsUsual) {
   EXPECT_GT(run(check, 0.0, 2.0, [&](double) { return seenFrom(knocked); }), 0.0);
 }
 
+/// What was usual was the mount's error, which tf had.
+TEST(MountCheck, TfThatIsPutRightIsNoKnock) {
+  const Eigen::Isometry3d off = mount(0.0, 0.3 + 2.3 * kDegree, 0.45);
+  MountCheck check;
+  EXPECT_LT(run(check, 0.0, 10.0, [&](double) { return seenFrom(off); }), 0.0);
+  EXPECT_LT(run(check, 10.0, 5.0, [](double) { return seenFrom(kTf); }), 0.0);
+}
+
 }  // namespace
 }  // namespace dominant_plane_detection
