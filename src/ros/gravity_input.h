@@ -45,8 +45,8 @@ class GravityInput {
   std::optional<double> data_stamp_;  ///< [s] of the last message of imu/data
   GravityFilter filter_;
   TurnHistory turns_;
-  std::optional<Eigen::Vector3d>
-      by_orientation_;  ///< up in the sensor's frame, of the last message
+  /// Up in the sensor's frame, of the last message that has an orientation.
+  std::optional<Eigen::Vector3d> by_orientation_;
   std::string problem_;
 };
 
