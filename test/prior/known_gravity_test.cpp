@@ -178,7 +178,7 @@ void walk(std::uint32_t seed, Figures& figures) {
 
 TEST(KnownGravity, TheFloorIsChosenByAWalkingHand) {
   Figures figures;
-  const int walks = longForm(12, 200);
+  const int walks = longForm(20, 200);
   for (int seed = 1; seed <= walks; ++seed) walk(static_cast<std::uint32_t>(seed), figures);
   std::cout << "the floor in " << figures.floor << " of " << figures.images
             << " images, without an accelerometer in " << figures.floor_alone

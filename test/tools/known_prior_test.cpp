@@ -195,9 +195,8 @@ TEST_F(Desk, KnowingUpFloorOrTableIsFoundAndNeverAWall) {
             << largest.right << ", " << largest.walls << ", " << largest.none << "\n";
 }
 
-/// The normal comes from the data: a prior that is 8 degrees off, to any side, moves it in few
-/// images, and then because other seeds are drawn: of a cluttered table's regions one is as good as
-/// another, and a Kinect's smooth error bends them apart.
+/// The normal comes from the data: a prior that is 8 degrees off, to any side, moves it in hardly
+/// any image.
 TEST_F(Desk, APriorThatIsOffDoesNotTurnThePlane) {
   const Figures straight = figures({}, [](const DeskTruth& truth) { return byTf(truth.up); });
   int compared = 0, moved = 0;
@@ -219,7 +218,7 @@ TEST_F(Desk, APriorThatIsOffDoesNotTurnThePlane) {
   }
   std::cout << "moved by more than 0.5 deg in " << moved << " of " << compared << " images\n";
   EXPECT_GE(compared, 560);
-  EXPECT_LE(moved, compared / 10);
+  EXPECT_LE(moved, compared / 50);
 }
 
 }  // namespace
