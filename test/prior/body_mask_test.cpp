@@ -70,12 +70,14 @@ TEST(BodyMask, WithoutTheBodyInViewTheImageIsNotCopied) {
 /// is where no corner tells.
 TEST(BodyMask, BoxesAboutTheCameraAndBentLensesAreLookedForEverywhere) {
   CameraModel camera = testCamera(160, 120);
-  const BodyMask::Box box(Eigen::Vector3d(-0.5, -0.1, -0.1), Eigen::Vector3d(0.6, 0.1, 0.2));
   for (const bool bent : {false, true}) {
     if (bent) {
       camera.distortion = DistortionModel::kPlumbBob;
       camera.coefficients[0] = 0.5;
     }
+    const BodyMask::Box box =
+        bent ? BodyMask::Box(Eigen::Vector3d(0.6, 0.15, -0.01), Eigen::Vector3d(0.8, 0.3, 0.01))
+             : BodyMask::Box(Eigen::Vector3d(-0.5, -0.1, -0.1), Eigen::Vector3d(0.6, 0.1, 0.2));
     const Eigen::Vector3d up = kCamera.linear().transpose() * Eigen::Vector3d::UnitZ();
     RayTable rays;
     rays.build(camera);
