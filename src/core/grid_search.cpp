@@ -18,7 +18,7 @@ void GridSearch::run(const Image& image, const Parameters& parameters,
   // Where more is known than up all seeds are tried, from anywhere: what up is exactly changes
   // none.
   const PlaneLimits& limits = selection.limits();
-  const bool from_anywhere = limits.lowest_from > 0 || limits.expected_height;
+  const bool from_anywhere = limits.lowest_from > 0 && !limits.expected_height;
   order_.build(tiles_->columns, tiles_->rows, {image.camera.fx, image.camera.fy},
                from_anywhere ? Eigen::Vector3d(-Eigen::Vector3d::UnitZ()) : limits.expected_up);
   begin(Seeds::kPromising);
