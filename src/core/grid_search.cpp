@@ -15,8 +15,8 @@ void GridSearch::run(const Image& image, const Parameters& parameters,
   effort_ = &effort;
   start(image, parameters);
   growth_.start(image.tiles, tileAngle(image.camera));
-  // Where more is known than up all seeds are tried, from anywhere: what up is exactly changes
-  // none.
+  // Where the lowest plane is looked for all seeds are tried, from anywhere: what up is exactly
+  // changes none. At a known height the lower half shows the ground nearer, and so better.
   const PlaneLimits& limits = selection.limits();
   const bool from_anywhere = limits.lowest_from > 0 && !limits.expected_height;
   order_.build(tiles_->columns, tiles_->rows, {image.camera.fx, image.camera.fy},
