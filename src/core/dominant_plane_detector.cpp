@@ -41,13 +41,17 @@ bool isPossible(const DepthView& depth) {
          depth.height <= kMaxSide;
 }
 
+/// Writes why something cannot be used.
+/// @return false
+template <typename... Values>
+bool refuseWith(Sentence& sentence, const char* format, Values... values) {
+  std::snprintf(sentence.data(), sentence.size(), format, values...);
+  return false;
+}
+
 /// @return whether image and camera can be used; otherwise `sentence` says why not.
-bool check(const DepthView& depth, const CameraModel& camera, const Prior& prior,
-           Sentence& sentence) {
-  const auto refuse = [&](const char* format, auto... values) {
-    std::snprintf(sentence.data(), sentence.size(), format, values...);
-    return false;
-  };
+bool check(const DepthView& depth, const CameraModel& camera, Sentence& sentence) {
+  const auto refuse = [&](auto... values) { return refuseWith(sentence, values...); };
   if (depth.data == nullptr || depth.width <= 0 || depth.height <= 0) {
     return refuse("Expected a depth image, got an empty one of %d x %d pixels.", depth.width,
                   depth.height);
@@ -72,6 +76,12 @@ bool check(const DepthView& depth, const CameraModel& camera, const Prior& prior
     return refuse("Expected a camera of the image's size %d x %d, got %d x %d.", depth.width,
                   depth.height, camera.width, camera.height);
   }
+  return true;
+}
+
+/// @return the same of what is known before.
+bool check(const Prior& prior, Sentence& sentence) {
+  const auto refuse = [&](auto... values) { return refuseWith(sentence, values...); };
   const double up_length = prior.expected_up ? prior.expected_up->norm() : 1.0;
   if (!(up_length > 1e-3 && std::isfinite(up_length))) {
     return refuse("Expected an up direction, got a vector of length %g.", up_length);
@@ -90,8 +100,7 @@ bool check(const DepthView& depth, const CameraModel& camera, const Prior& prior
           std::isfinite(plane.distance) && plane.weight >= 0.0 && plane.weight < 1.0)) {
       return refuse(
           "Expected a predicted plane with a unit normal, a distance >= 0 and a weight below 1, "
-          "got "
-          "a normal of length %g, %g m and %g.",
+          "got a normal of length %g, %g m and %g.",
           plane.normal.norm(), plane.distance, plane.weight);
     }
   }
@@ -116,7 +125,9 @@ class DominantPlaneDetector::Implementation {
   const Detection& detect(const DepthView& depth, const CameraModel& camera, const Prior& prior) {
     clear(depth, prior);
     Sentence sentence{};
-    if (!check(depth, camera, prior, sentence)) return refuse(State::kBadInput, sentence);
+    if (!check(depth, camera, sentence) || !check(prior, sentence)) {
+      return refuse(State::kBadInput, sentence);
+    }
     rays_.build(camera);
     const ImageInput input{depth, rays_, {metresPerUnit(depth), rangeMin(), rangeMax()}};
     computeTileMoments(depth, rays_, rangeMin(), rangeMax(), tiles_);
@@ -168,11 +179,15 @@ class DominantPlaneDetector::Implementation {
     return static_cast<std::size_t>(std::ceil(parameters_.min_patch * share));
   }
 
+  /// @return [px] a share of the pixels with a reading, rounded up.
+  std::size_t shareOfValid(double share) const {
+    return static_cast<std::size_t>(
+        std::ceil(share * static_cast<double>(detection_.valid_pixels)));
+  }
+
   /// @return [px] smallest further plane: they need half of what the dominant one needs.
   std::size_t minFurther() const {
-    const auto valid = static_cast<double>(detection_.valid_pixels);
-    return std::max(static_cast<std::size_t>(std::ceil(0.5 * parameters_.min_share * valid)),
-                    minPatch());
+    return std::max(shareOfValid(0.5 * parameters_.min_share), minPatch());
   }
 
   float rangeMin() const { return static_cast<float>(parameters_.range_min); }
@@ -200,18 +215,16 @@ class DominantPlaneDetector::Implementation {
   }
 
   PlaneLimits limits(const Prior& prior) const {
-    const auto valid = static_cast<double>(detection_.valid_pixels);
-    PlaneLimits limits{
-        prior.expected_up.value_or(parameters_.expected_up).normalized(), parameters_.max_tilt,
-        prior.height_range ? prior.height_range->min : parameters_.min_height,
-        prior.height_range ? prior.height_range->max : parameters_.max_height,
-        std::max(static_cast<std::size_t>(std::ceil(parameters_.min_share * valid)), minPatch())};
+    PlaneLimits limits{prior.expected_up.value_or(parameters_.expected_up).normalized(),
+                       parameters_.max_tilt,
+                       prior.height_range ? prior.height_range->min : parameters_.min_height,
+                       prior.height_range ? prior.height_range->max : parameters_.max_height,
+                       std::max(shareOfValid(parameters_.min_share), minPatch())};
     limits.expected_height = prior.expected_height;
     if (prefersLowest(prior)) {
       limits.max_tilt =
           std::min(limits.max_tilt, kLevelTilt + (prior.expected_up ? prior.up_error : 0.0));
-      limits.lowest_from =
-          std::max(static_cast<std::size_t>(std::ceil(kLowestShare * valid)), limits.min_points);
+      limits.lowest_from = std::max(shareOfValid(kLowestShare), limits.min_points);
     }
     return limits;
   }

@@ -19,8 +19,9 @@ void GridSearch::run(const Image& image, const Parameters& parameters,
   // changes none. At a known height the lower half shows the ground nearer, and so better.
   const PlaneLimits& limits = selection.limits();
   const bool from_anywhere = limits.lowest_from > 0 && !limits.expected_height;
+  const Eigen::Vector3d no_lower_half(0.0, 0.0, -1.0);
   order_.build(tiles_->columns, tiles_->rows, {image.camera.fx, image.camera.fy},
-               from_anywhere ? Eigen::Vector3d(-Eigen::Vector3d::UnitZ()) : limits.expected_up);
+               from_anywhere ? no_lower_half : limits.expected_up);
   begin(Seeds::kPromising);
   tracked_ = false;
   if (predicted) tryPrediction(*predicted);

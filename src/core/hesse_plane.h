@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <limits>
 
 namespace dominant_plane_detection {
@@ -21,5 +22,16 @@ struct HessePlane {
   /// @return [m] n . r - d (Eq. 4): negative on the camera's side.
   double signedDistance(const Eigen::Vector3d& point) const { return normal.dot(point) - distance; }
 };
+
+/// @return columns that turn (p, q, c) into a change of [normal, distance]: the normal by p and q
+/// along two axes across it, the distance by c. Its transpose takes the change apart again.
+inline Eigen::Matrix<double, 4, 3> planeChanges(const Eigen::Vector3d& normal) {
+  Eigen::Matrix<double, 4, 3> changes = Eigen::Matrix<double, 4, 3>::Zero();
+  const Eigen::Vector3d axis = normal.unitOrthogonal();
+  changes.block<3, 1>(0, 0) = axis;
+  changes.block<3, 1>(0, 1) = normal.cross(axis);
+  changes(3, 2) = 1.0;
+  return changes;
+}
 
 }  // namespace dominant_plane_detection

@@ -144,11 +144,7 @@ Eigen::Matrix4d PlaneCovariance::estimate(const TileMoments& tiles,
   resize(tiles, image_width);
   const Eigen::Matrix4d moments = addTiles(tiles, ground, plane, sizes.noise);
   // h = p a + q b + c, with a and b along the plane from the camera's foot.
-  Eigen::Matrix<double, 4, 3> axes = Eigen::Matrix<double, 4, 3>::Zero();
-  const Eigen::Vector3d a = plane.normal.unitOrthogonal();
-  axes.block<3, 1>(0, 0) = a;
-  axes.block<3, 1>(0, 1) = plane.normal.cross(a);
-  axes(3, 2) = 1.0;
+  const Eigen::Matrix<double, 4, 3> axes = planeChanges(plane.normal);
   const Eigen::LDLT<Eigen::Matrix3d> normal_equations(axes.transpose() * moments * axes);
   if (!(normal_equations.rcond() > kMinCondition)) return unknownCovariance();
   for (Cell& cell : cells_) {

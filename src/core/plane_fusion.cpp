@@ -1,7 +1,8 @@
 #include "core/plane_fusion.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
+
+#include "core/hesse_plane.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -9,23 +10,12 @@ namespace {
 /// [-] of chi squared with three degrees of freedom: 99 %.
 constexpr double kGate = 11.34;
 
-/// @return rows that turn a change of [normal, distance] into one of (p, q, distance), where p and
-/// q are the normal's along two axes across it.
-Eigen::Matrix<double, 3, 4> acrossOf(const Eigen::Vector3d& normal) {
-  Eigen::Matrix<double, 3, 4> across = Eigen::Matrix<double, 3, 4>::Zero();
-  const Eigen::Vector3d axis = normal.unitOrthogonal();
-  across.row(0).head<3>() = axis;
-  across.row(1).head<3>() = normal.cross(axis);
-  across(2, 3) = 1.0;
-  return across;
-}
-
 }  // namespace
 
 UncertainPlane fuse(const UncertainPlane& seen, const Prior::PredictedPlane& predicted) {
   const bool known = seen.covariance(0, 0) >= 0.0 && predicted.covariance(0, 0) >= 0.0;
   if (!known || !(predicted.weight > 0.0)) return seen;
-  const Eigen::Matrix<double, 3, 4> across = acrossOf(seen.normal);
+  const Eigen::Matrix<double, 3, 4> across = planeChanges(seen.normal).transpose();
   Eigen::Vector4d apart;
   apart << predicted.normal - seen.normal, predicted.distance - seen.distance;
   const Eigen::Vector3d change = across * apart;
@@ -42,7 +32,7 @@ UncertainPlane fuse(const UncertainPlane& seen, const Prior::PredictedPlane& pre
   UncertainPlane fused;
   fused.normal = (seen.normal + moved.head<3>()).normalized();
   fused.distance = seen.distance + moved[3];
-  const Eigen::Matrix<double, 3, 4> again = acrossOf(fused.normal);
+  const Eigen::Matrix<double, 3, 4> again = planeChanges(fused.normal).transpose();
   // The axes across the two normals differ by a turn about them.
   const Eigen::Matrix3d turn = again * across.transpose();
   fused.covariance = again.transpose() * turn * covariance * turn.transpose() * again;

@@ -63,15 +63,15 @@ void PlaneDetectionNodelet::start() {
       [this](const DetectionInputs::Frame& frame) { onFrame(frame); });
   const NodeParameters own = loadNodeParameters(private_node);
   frames_ = std::make_unique<RobotFrames>(node);
-  body_ = std::make_unique<RobotBody>(private_node, own, *frames_);
+  body_ = std::make_unique<RobotBody>(private_node, own, *frames_, rays_);
   prior_ = std::make_unique<PlanePrior>(node, own, *frames_);
   pictures_ = std::make_unique<PictureInput>(node, private_node, [this] { overlay_->onPicture(); });
   const auto listeners_changed = [this] { followListeners(); };
   outputs_.advertise(private_node, listeners_changed);
   overlay_ = std::make_unique<OverlayOutput>(private_node, *pictures_, listeners_changed);
-  clouds_ =
-      std::make_unique<CloudOutputs>(private_node, own, *frames_, *pictures_, listeners_changed);
-  scan_ = std::make_unique<ScanOutput>(private_node, own, *frames_, listeners_changed);
+  clouds_ = std::make_unique<CloudOutputs>(private_node, own, *frames_, *pictures_, rays_,
+                                           listeners_changed);
+  scan_ = std::make_unique<ScanOutput>(private_node, own, *frames_, rays_, listeners_changed);
   mount_service_ = std::make_unique<MountService>(private_node, listeners_changed);
   reconfigure_ = std::make_unique<dynamic_reconfigure::Server<PlaneDetectionConfig>>(private_node);
   reconfigure_->setCallback(

@@ -15,7 +15,6 @@
 #include "ros/detection_diagnostics.h"
 #include "ros/detection_inputs.h"
 #include "ros/detection_outputs.h"
-#include "ros/detection_parameters.h"
 #include "ros/mount_service.h"
 #include "ros/overlay_output.h"
 #include "ros/picture_input.h"
@@ -49,11 +48,12 @@ class PlaneDetectionNodelet : public PeriodicNodelet {
 
   std::optional<DepthCorrection> correction_;
   DominantPlaneDetector detector_;
+  RayTable rays_;  ///< of the images' camera
   std::unique_ptr<RobotFrames> frames_;
   std::unique_ptr<RobotBody> body_;
   std::unique_ptr<PlanePrior> prior_;
   std::unique_ptr<PictureInput> pictures_;
-  DetectionOutputs outputs_;
+  DetectionOutputs outputs_{rays_};
   std::unique_ptr<OverlayOutput> overlay_;
   std::unique_ptr<CloudOutputs> clouds_;
   std::unique_ptr<ScanOutput> scan_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prior/angle.h"
+
 namespace dominant_plane_detection {
 namespace {
 
@@ -42,7 +44,7 @@ void GravityFilter::add(const InertialReading& reading) {
   const Eigen::Vector3d direction = reading.acceleration / size;
   mean_ += weight / weight_ * (direction - mean_);
   const Eigen::Vector3d up = mean_.normalized();
-  const double angle = std::atan2(up.cross(direction).norm(), up.dot(direction));
+  const double angle = angleBetween(up, direction);
   square_ += weight / weight_ * (angle * angle - square_);
 }
 

@@ -1,8 +1,8 @@
 #include "prior/known_up.h"
 
-#include <Eigen/Geometry>
-#include <cmath>
 #include <cstdio>
+
+#include "prior/angle.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -10,10 +10,6 @@ namespace {
 constexpr double kDegree = 0.0174533;              // [rad]
 constexpr double kContradiction = 15.0 * kDegree;  // [rad] a ramp, and what a mount may be off by
 constexpr double kPatience = 1.0;                  // [s]
-
-double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 }  // namespace
 

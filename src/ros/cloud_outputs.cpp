@@ -16,9 +16,9 @@ constexpr double kThrottle = 5.0;  // [s] between lines of the same kind
 }  // namespace
 
 CloudOutputs::CloudOutputs(ros::NodeHandle& private_node, const NodeParameters& parameters,
-                           RobotFrames& frames, PictureInput& pictures,
+                           RobotFrames& frames, PictureInput& pictures, RayTable& rays,
                            const std::function<void()>& listeners_changed)
-    : parameters_(parameters), frames_(frames), pictures_(pictures) {
+    : parameters_(parameters), frames_(frames), pictures_(pictures), rays_(rays) {
   const ros::SubscriberStatusCallback changed =
       [listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); };
   for (LabelledCloud& cloud : clouds_) {

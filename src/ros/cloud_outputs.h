@@ -18,8 +18,10 @@ namespace dominant_plane_detection {
 /// The clouds of obstacles, ground, drop-offs and missing ground.
 class CloudOutputs {
  public:
+  /// @param rays shared with whoever needs those of the same images.
   CloudOutputs(ros::NodeHandle& private_node, const NodeParameters& parameters, RobotFrames& frames,
-               PictureInput& pictures, const std::function<void()>& listeners_changed);
+               PictureInput& pictures, RayTable& rays,
+               const std::function<void()>& listeners_changed);
 
   bool anybodyListens() const;
   /// @return whether pictures are wanted for their colours.
@@ -41,7 +43,7 @@ class CloudOutputs {
                                         {topics::kGround, Label::kGround, {}},
                                         {topics::kDropOffs, Label::kDropOff, {}},
                                         {topics::kMissingGround, Label::kMissingGround, {}}}};
-  RayTable rays_;
+  RayTable& rays_;
 };
 
 }  // namespace dominant_plane_detection

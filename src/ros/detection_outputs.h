@@ -17,6 +17,9 @@ namespace dominant_plane_detection {
 /// is published, so that subscribers in the same process may keep it.
 class DetectionOutputs {
  public:
+  /// @param rays shared with whoever needs those of the same images.
+  explicit DetectionOutputs(RayTable& rays) : rays_(rays) {}
+
   /// @param node outputs are private topics of it.
   /// @param listeners_changed called whenever somebody begins or ends to listen to any of them.
   void advertise(ros::NodeHandle& node, const std::function<void()>& listeners_changed);
@@ -41,7 +44,7 @@ class DetectionOutputs {
   image_transport::Publisher labels_;
   image_transport::Publisher plane_index_;
   image_transport::Publisher height_image_;
-  RayTable rays_;
+  RayTable& rays_;
 };
 
 }  // namespace dominant_plane_detection

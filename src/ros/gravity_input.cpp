@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prior/angle.h"
 #include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
@@ -102,8 +103,7 @@ std::optional<Up> GravityInput::up(const std::string& optical_frame, const ros::
     return std::nullopt;
   }
   if (by_orientation_) {
-    const double apart = std::atan2(by_orientation_->cross(up->direction).norm(),
-                                    by_orientation_->dot(up->direction));
+    const double apart = angleBetween(*by_orientation_, up->direction);
     if (apart < kAgree + up->error) up = Up{*by_orientation_, std::max(kOrientationError, apart)};
   }
   const auto rotation = toOptical(optical_frame);

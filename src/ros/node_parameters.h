@@ -76,10 +76,6 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
         p.coloured_clouds);
 }
 
-inline std::string configValue(TfOutput value) {
-  return kChoiceNames<TfOutput>[static_cast<std::size_t>(value)];
-}
-
 std::vector<std::string> findErrors(const NodeParameters& parameters);
 /// @throw std::invalid_argument as `setParameter` of the detection does.
 void setParameter(NodeParameters& parameters, const std::string& name, const std::string& value);

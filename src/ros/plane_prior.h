@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "dominant_plane_detection/prior.h"
 #include "prior/known_up.h"

@@ -46,8 +46,8 @@ std::vector<BodyMask::Box> asBoxes(XmlRpcValue value) {
 }
 
 RobotBody::RobotBody(const ros::NodeHandle& private_node, const NodeParameters& parameters,
-                     RobotFrames& frames)
-    : base_frame_(parameters.base_frame), frames_(frames) {
+                     RobotFrames& frames, RayTable& rays)
+    : base_frame_(parameters.base_frame), frames_(frames), rays_(rays) {
   XmlRpcValue value;
   if (!private_node.getParam("robot_body", value)) return;
   try {

@@ -16,8 +16,9 @@ namespace dominant_plane_detection {
 class RobotBody {
  public:
   /// @param parameters with the frame that the boxes are in.
+  /// @param rays shared with whoever needs those of the same images.
   RobotBody(const ros::NodeHandle& private_node, const NodeParameters& parameters,
-            RobotFrames& frames);
+            RobotFrames& frames, RayTable& rays);
 
   /// @return the image without the body, valid until the next call; the image itself where there is
   /// none, or nobody knows where it is, which the log says then.
@@ -27,7 +28,7 @@ class RobotBody {
   std::string base_frame_;
   RobotFrames& frames_;
   BodyMask mask_;
-  RayTable rays_;
+  RayTable& rays_;
 };
 
 /// @param value a list of boxes, each {min: [x, y, z], max: [x, y, z]} in [m].

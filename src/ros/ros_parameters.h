@@ -41,10 +41,14 @@ std::vector<std::string> parameterNames() {
   return names;
 }
 
-/// What dynamic_reconfigure has for a value: itself, or else a text.
-template <typename T>
+/// What dynamic_reconfigure has for a value: itself, or else a text, as for an enumeration.
+template <typename T, std::enable_if_t<!std::is_enum_v<T>, int> = 0>
 const T& configValue(const T& value) {
   return value;
+}
+template <typename Choice, std::enable_if_t<std::is_enum_v<Choice>, int> = 0>
+std::string configValue(Choice value) {
+  return kChoiceNames<Choice>[static_cast<std::size_t>(value)];
 }
 
 /// The same values as dynamic_reconfigure has them.

@@ -13,10 +13,12 @@ constexpr std::uint32_t kQueue = 10;
 }  // namespace
 
 ScanOutput::ScanOutput(ros::NodeHandle& private_node, const NodeParameters& parameters,
-                       RobotFrames& frames, const std::function<void()>& listeners_changed)
+                       RobotFrames& frames, RayTable& rays,
+                       const std::function<void()>& listeners_changed)
     : limits_{parameters.clearance_height, parameters.max_obstacle_height,
               parameters.scan_missing_ground, 0.0},
-      tf_(parameters, frames) {
+      tf_(parameters, frames),
+      rays_(rays) {
   const ros::SubscriberStatusCallback changed =
       [listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); };
   publisher_ =

@@ -16,8 +16,9 @@ namespace dominant_plane_detection {
 /// with it.
 class ScanOutput {
  public:
+  /// @param rays shared with whoever needs those of the same images.
   ScanOutput(ros::NodeHandle& private_node, const NodeParameters& parameters, RobotFrames& frames,
-             const std::function<void()>& listeners_changed);
+             RayTable& rays, const std::function<void()>& listeners_changed);
 
   bool anybodyListens() const { return publisher_.getNumSubscribers() > 0 || tf_.always(); }
   /// Without a plane there is neither scan nor tf.
@@ -28,7 +29,7 @@ class ScanOutput {
   ScanLimits limits_;
   GroundTf tf_;
   GroundScanner scanner_;
-  RayTable rays_;
+  RayTable& rays_;
   ros::Publisher publisher_;
 };
 

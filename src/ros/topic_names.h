@@ -13,7 +13,7 @@ constexpr const char* kImu = "imu/data_raw";  // REP 145: without an orientation
 // More inputs of the detection, relative to its namespace.
 constexpr const char* kPoints = "points";
 constexpr const char* kPicture = "image";
-constexpr const char* kImuData = "imu/data";  // the driver's imu/data_raw is another
+constexpr const char* kImuData = "imu/data";  // REP 145: with an orientation
 
 // Outputs, private to the node.
 constexpr const char* kPlane = "plane";

@@ -6,16 +6,16 @@
 #include <charconv>
 #include <iostream>
 
-#include "ros/detection_parameters.h"
 #include "ros/driver_parameters.h"
 #include "ros/node_parameters.h"
 
 namespace dominant_plane_detection {
 namespace {
 
-const char* typeOf(Algorithm) { return "choice"; }
-const char* typeOf(Preference) { return "choice"; }
-const char* typeOf(TfOutput) { return "choice"; }
+template <typename Choice>
+std::enable_if_t<std::is_enum_v<Choice>, const char*> typeOf(Choice) {
+  return "choice";
+}
 const char* typeOf(const std::string&) { return "text"; }
 const char* typeOf(const VideoMode&) { return "text"; }
 const char* typeOf(bool) { return "bool"; }

@@ -6,16 +6,14 @@
 #include <cmath>
 #include <random>
 
+#include "prior/angle.h"
+
 namespace dominant_plane_detection {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kGravity = 9.81;
 const Eigen::Vector3d kUp = Eigen::Vector3d(0.2, -0.9, -0.3).normalized();
-
-double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 TEST(GravityFilter, AtRestUpIsWhatIsFelt) {
   GravityFilter filter;

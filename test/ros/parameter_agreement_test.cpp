@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "core/parameter_table.h"
-#include "ros/detection_parameters.h"
 #include "ros/driver_parameters.h"
 #include "ros/node_parameters.h"
 #include "ros/parameter_file.h"

@@ -96,8 +96,9 @@ class Robot : public Nodelet {
     }
     return false;
   }
-  bool ready(const Listener<DominantPlane>& planes) {
-    return spinUntil([&] { return planes.connected(); }) && waitForSubscription();
+  template <typename... Listeners>
+  bool ready(const Listeners&... listeners) {
+    return spinUntil([&] { return (listeners.connected() && ...); }) && waitForSubscription();
   }
   static bool isFrom(const DominantPlane& plane, std::uint8_t source, double distance) {
     return plane.state == DominantPlane::FOUND && plane.up_source == source &&
@@ -211,8 +212,7 @@ TEST_F(Robot, TheScanIsInTheFrameOnTheGround) {
   sendMount(cameraInBase());
   Listener<DominantPlane> planes(node_, "/by_tf/plane");
   Listener<sensor_msgs::LaserScan> scans(node_, "/by_tf/scan");
-  ASSERT_TRUE(ready(planes));
-  ASSERT_TRUE(spinUntil([&] { return scans.connected(); }));
+  ASSERT_TRUE(ready(planes, scans));
   EXPECT_TRUE(sendUntil(planes, image_, [&](const DominantPlane& plane) {
     return isFrom(plane, DominantPlane::UP_TF, kHeight) && scans.size() > 0;
   }));
@@ -269,8 +269,7 @@ TEST_F(Robot, AFrameThatHasAParentIsLeftAlone) {
   Listener<DominantPlane> planes(node_, "/by_gravity/plane");
   Listener<sensor_msgs::LaserScan> scans(node_, "/by_gravity/scan");
   Listener<rosgraph_msgs::Log> logs(node_, "/rosout");
-  ASSERT_TRUE(ready(planes));
-  ASSERT_TRUE(spinUntil([&] { return scans.connected(); }));
+  ASSERT_TRUE(ready(planes, scans));
   const auto said = [&] {
     return std::any_of(logs.messages().begin(), logs.messages().end(), [](const auto& line) {
       return line->msg.find("No tf goes out from optical to taken") != std::string::npos;
@@ -290,8 +289,7 @@ TEST_F(Robot, SlashesAndNewFramesAreNoConflict) {
   sendMount(cameraInBase());
   Listener<DominantPlane> planes(node_, "/by_tf/plane");
   Listener<sensor_msgs::LaserScan> scans(node_, "/by_tf/scan");
-  ASSERT_TRUE(ready(planes));
-  ASSERT_TRUE(spinUntil([&] { return scans.connected(); }));
+  ASSERT_TRUE(ready(planes, scans));
   for (const char* frame : {"/optical", "optical", "other_optical", "/optical"}) {
     frame_ = frame;
     const std::size_t before = scans.size();

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "dominant_plane_detection/dominant_plane_detector.h"
+#include "prior/angle.h"
 #include "support/desk_truth.h"
 #include "support/recordings.h"
 #include "tools/inputs.h"
@@ -20,10 +21,6 @@ namespace dominant_plane_detection {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-
-double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 /// The images of a bag; none where the recordings are missing.
 std::vector<Frame> bagFrames(const std::string& name) {
