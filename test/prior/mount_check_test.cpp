@@ -214,5 +214,22 @@ TEST(MountCheck, TfThatIsPutRightIsNoKnock) {
   EXPECT_LT(run(check, 10.0, 5.0, [](double) { return seenFrom(kTf); }), 0.0);
 }
 
+/// A carpet's edge under the wheels, a slope of the yard: 12 mm and 1.2 degrees stay unsaid, 21 mm
+/// and 2.1 degrees do not.
+TEST(MountCheck, WhatAnUnevenFloorExplainsIsNoKnock) {
+  const auto told = [](double pitch, double height) {
+    MountCheck check;
+    EXPECT_LT(run(check, 0.0, 5.0, [](double) { return seenFrom(kTf); }), 0.0);
+    const Eigen::Isometry3d other = mount(0.0, 0.3 + pitch * kDegree, 0.45 + height);
+    return run(check, 5.0, 5.0, [&](double) { return seenFrom(other); }) >= 0.0;
+  };
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_FALSE(told(0.0, sign * 0.012));
+    EXPECT_FALSE(told(sign * 1.2, 0.0));
+    EXPECT_TRUE(told(0.0, sign * 0.021));
+    EXPECT_TRUE(told(sign * 2.1, 0.0));
+  }
+}
+
 }  // namespace
 }  // namespace dominant_plane_detection
