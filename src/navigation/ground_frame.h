@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace dominant_plane_detection {
 
@@ -22,6 +23,19 @@ inline Eigen::Isometry3d groundFromOptical(const Eigen::Vector3d& normal, double
   transform.linear().row(2) = normal;
   transform.translation().z() = distance;
   return transform;
+}
+
+/// The same frame as seen from above, in a frame with z up.
+/// @param T_world_optical of the camera.
+/// @return T_world_ground in x, y and yaw.
+inline Eigen::Isometry2d groundFromAbove(const Eigen::Isometry3d& T_world_optical,
+                                         const Eigen::Isometry3d& T_ground_optical) {
+  const Eigen::Isometry3d ground = T_world_optical * T_ground_optical.inverse();
+  const Eigen::Vector3d x = ground.linear().col(0);
+  Eigen::Isometry2d pose = Eigen::Isometry2d::Identity();
+  pose.translation() = ground.translation().head<2>();
+  pose.linear() = Eigen::Rotation2Dd(std::atan2(x.y(), x.x())).toRotationMatrix();
+  return pose;
 }
 
 }  // namespace dominant_plane_detection

@@ -7,6 +7,7 @@
 #include "core/ray_table.h"
 #include "dominant_plane_detection/depth_image.h"
 #include "dominant_plane_detection/detection.h"
+#include "navigation/obstacle_limits.h"
 
 namespace dominant_plane_detection {
 
@@ -23,14 +24,6 @@ struct GroundScan {
   double angle(std::size_t i) const { return angle_min + static_cast<double>(i) * angle_increment; }
 };
 
-/// What a robot would touch.
-struct ScanLimits {
-  double clearance_height = 0.0;     ///< [m] lower obstacles pass under it
-  double max_obstacle_height = 2.0;  ///< [m] it passes under higher ones
-  bool missing_ground = false;       ///< missing ground is an obstacle
-  double range_max = 4.0;            ///< [m] farthest depth that was looked at
-};
-
 /// Makes scans from labels. Each pixel is a place over the ground, so that pitch and roll of the
 /// camera do not matter: its columns are not vertical then.
 ///
@@ -42,7 +35,7 @@ class GroundScanner {
   /// @param rays of the detection's camera.
   /// @return without a plane no readings; valid until the next call.
   const GroundScan& scan(const DepthView& depth, const RayTable& rays, const Detection& detection,
-                         const ScanLimits& limits);
+                         const ObstacleLimits& limits);
 
  private:
   struct Cell {
@@ -50,9 +43,9 @@ class GroundScanner {
     float sum = 0.0F;          ///< [m] of their ranges
   };
 
-  void begin(const RayTable& rays, const Detection& detection, const ScanLimits& limits);
+  void begin(const RayTable& rays, const Detection& detection, const ObstacleLimits& limits);
   void addRow(int v, const DepthView& depth, const RayTable& rays, const Detection& detection,
-              const ScanLimits& limits);
+              const ObstacleLimits& limits);
   float rangeOf(std::size_t direction, std::uint32_t least) const;
   bool isFree(std::size_t direction) const;
 

@@ -71,7 +71,10 @@ void PlaneDetectionNodelet::start() {
   overlay_ = std::make_unique<OverlayOutput>(private_node, *pictures_, listeners_changed);
   clouds_ = std::make_unique<CloudOutputs>(private_node, own, *frames_, *pictures_, rays_,
                                            listeners_changed);
-  scan_ = std::make_unique<ScanOutput>(private_node, own, *frames_, rays_, listeners_changed);
+  ground_tf_ = std::make_unique<GroundTf>(own, *frames_);
+  scan_ = std::make_unique<ScanOutput>(private_node, own, rays_, listeners_changed);
+  map_ = std::make_unique<MapOutput>(private_node, own, *frames_, rays_, listeners_changed);
+  boxes_ = std::make_unique<BoxOutput>(private_node, own, *frames_, rays_, listeners_changed);
   mount_service_ = std::make_unique<MountService>(private_node, listeners_changed);
   reconfigure_ = std::make_unique<dynamic_reconfigure::Server<PlaneDetectionConfig>>(private_node);
   reconfigure_->setCallback(
@@ -97,8 +100,9 @@ void PlaneDetectionNodelet::followListeners() {
 
 void PlaneDetectionNodelet::trySubscriptions() {
   const bool wanted = outputs_.anybodyListens() || overlay_->anybodyListens() ||
-                      clouds_->anybodyListens() || scan_->anybodyListens() ||
-                      mount_service_->wants() || learner_->wants();
+                      clouds_->anybodyListens() || ground_tf_->always() ||
+                      scan_->anybodyListens() || map_->anybodyListens() ||
+                      boxes_->anybodyListens() || mount_service_->wants() || learner_->wants();
   if (wanted && !inputs_->subscribed()) {
     inputs_->subscribe();
     prior_->subscribe();
@@ -138,9 +142,22 @@ void PlaneDetectionNodelet::detect(const DetectionInputs::Frame& frame) {
   mount_service_->add(detection, frame.header.frame_id);
   learner_->add(frame, detection);
   outputs_.publish(frame, detection, time.count());
-  scan_->publish(frame, detection, detector_.parameters().range_max);
+  const Parameters& parameters = detector_.parameters();
+  const auto ground_frame = groundFrame(frame, detection);
+  scan_->publish(frame, detection, ground_frame, parameters.range_max);
+  map_->publish(frame, detection, ground_frame, parameters);
+  boxes_->publish(frame, detection, parameters.range_max);
   clouds_->publish(frame, detection);  // after the tf that they may be in
   overlay_->publish(frame, detection);
+}
+
+/// Lets the frame on the ground go out where somebody needs it.
+/// @return which one is there now.
+std::optional<std::string> PlaneDetectionNodelet::groundFrame(const DetectionInputs::Frame& frame,
+                                                              const Detection& detection) {
+  const bool wanted = ground_tf_->always() || scan_->anybodyListens() || map_->needsGroundFrame();
+  if (!wanted || !detection.found()) return std::nullopt;
+  return ground_tf_->publish(frame.header, detection);
 }
 
 void PlaneDetectionNodelet::onReconfigure(PlaneDetectionConfig& config) {

@@ -10,11 +10,14 @@
 #include "dominant_plane_detection/depth_correction.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "nodelets/periodic_nodelet.h"
+#include "ros/box_output.h"
 #include "ros/cloud_outputs.h"
 #include "ros/correction_learner.h"
 #include "ros/detection_diagnostics.h"
 #include "ros/detection_inputs.h"
 #include "ros/detection_outputs.h"
+#include "ros/ground_tf.h"
+#include "ros/map_output.h"
 #include "ros/mount_service.h"
 #include "ros/overlay_output.h"
 #include "ros/picture_input.h"
@@ -44,6 +47,8 @@ class PlaneDetectionNodelet : public PeriodicNodelet {
   void onFrame(const DetectionInputs::Frame& frame);
   DetectionInputs::Frame prepared(const DetectionInputs::Frame& frame);
   void detect(const DetectionInputs::Frame& frame);
+  std::optional<std::string> groundFrame(const DetectionInputs::Frame& frame,
+                                         const Detection& detection);
   void onReconfigure(PlaneDetectionConfig& config);
 
   std::optional<DepthCorrection> correction_;
@@ -56,7 +61,10 @@ class PlaneDetectionNodelet : public PeriodicNodelet {
   DetectionOutputs outputs_{rays_};
   std::unique_ptr<OverlayOutput> overlay_;
   std::unique_ptr<CloudOutputs> clouds_;
+  std::unique_ptr<GroundTf> ground_tf_;
   std::unique_ptr<ScanOutput> scan_;
+  std::unique_ptr<MapOutput> map_;
+  std::unique_ptr<BoxOutput> boxes_;
   std::unique_ptr<CorrectionLearner> learner_;
   std::unique_ptr<DetectionInputs> inputs_;
   std::unique_ptr<MountService> mount_service_;

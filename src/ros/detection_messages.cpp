@@ -172,6 +172,26 @@ sensor_msgs::LaserScanPtr scanMessage(const std_msgs::Header& header, const Grou
   return message;
 }
 
+nav_msgs::OccupancyGridPtr mapMessage(const std_msgs::Header& header, const LocalMap& map,
+                                      double height) {
+  auto message = boost::make_shared<nav_msgs::OccupancyGrid>();
+  const RollingGrid& grid = map.grid();
+  message->header = header;
+  message->info.map_load_time = header.stamp;
+  message->info.resolution = static_cast<float>(grid.resolution());
+  message->info.width = static_cast<std::uint32_t>(grid.cells());
+  message->info.height = message->info.width;
+  message->info.origin.position.x = grid.origin().x();
+  message->info.origin.position.y = grid.origin().y();
+  message->info.origin.position.z = height;
+  message->info.origin.orientation.w = 1.0;
+  message->data.reserve(grid.size());
+  for (int y = 0; y < grid.cells(); ++y) {
+    for (int x = 0; x < grid.cells(); ++x) message->data.push_back(map.state(x, y));
+  }
+  return message;
+}
+
 pcl_msgs::PointIndicesPtr obstacleIndices(const std_msgs::Header& header,
                                           const Detection& detection) {
   auto message = boost::make_shared<pcl_msgs::PointIndices>();

@@ -3,6 +3,7 @@
 #include <dominant_plane_detection/DominantPlane.h>
 #include <dominant_plane_detection/DominantPlaneArray.h>
 #include <geometry_msgs/PolygonStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <pcl_msgs/ModelCoefficients.h>
 #include <pcl_msgs/PointIndices.h>
 #include <sensor_msgs/Image.h>
@@ -15,6 +16,7 @@
 #include "dominant_plane_detection/depth_image.h"
 #include "dominant_plane_detection/detection.h"
 #include "navigation/ground_scan.h"
+#include "navigation/local_map.h"
 
 namespace dominant_plane_detection {
 
@@ -48,6 +50,10 @@ sensor_msgs::ImagePtr heightMessage(const std_msgs::Header& header, const DepthV
 
 /// @param header in the frame on the ground.
 sensor_msgs::LaserScanPtr scanMessage(const std_msgs::Header& header, const GroundScan& scan);
+
+/// @param header in the frame of the map. @param height [m] of the ground in it.
+nav_msgs::OccupancyGridPtr mapMessage(const std_msgs::Header& header, const LocalMap& map,
+                                      double height);
 
 /// @return the pixels that are obstacles, by their place in the depth image row by row, which is
 /// that in an organised cloud of it.

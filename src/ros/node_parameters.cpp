@@ -3,6 +3,11 @@
 #include "core/parameter_text.h"
 
 namespace dominant_plane_detection {
+namespace {
+
+constexpr int kMostCells = 1000;  // [#] on a side of the map
+
+}  // namespace
 
 std::vector<std::string> findErrors(const NodeParameters& p) {
   std::vector<std::string> errors = findRangeErrors(p);
@@ -34,6 +39,18 @@ std::vector<std::string> refuseContradictions(NodeParameters& p) {
                         " for both");
     p.base_frame.clear();
   }
+  if (!(p.map_size >= p.map_resolution && p.map_size <= kMostCells * p.map_resolution)) {
+    errors.push_back("map_size has to be 1 to " + std::to_string(kMostCells) +
+                     " cells of map_resolution, got " + std::to_string(p.map_size) + " m and " +
+                     std::to_string(p.map_resolution) + " m");
+    p.map_size = NodeParameters().map_size;
+    p.map_resolution = NodeParameters().map_resolution;
+  }
+  if (!p.odom_frame.empty() && p.odom_frame == p.ground_frame) {
+    errors.emplace_back("odom_frame and ground_frame have to be two frames, got " + p.odom_frame +
+                        " for both");
+    p.odom_frame.clear();
+  }
   if (!p.base_frame.empty()) return errors;
   if (p.publish_tf == TfOutput::kBase) {
     errors.emplace_back("publish_tf base needs a base_frame, got none");
@@ -44,6 +61,10 @@ std::vector<std::string> refuseContradictions(NodeParameters& p) {
     p.clouds_in_base_frame = false;
   }
   return errors;
+}
+
+ObstacleLimits obstacleLimits(const NodeParameters& parameters, double range_max) {
+  return {parameters.clearance_height, parameters.max_obstacle_height, false, range_max};
 }
 
 NodeParameters loadNodeParameters(const ros::NodeHandle& private_node) {

@@ -13,12 +13,9 @@ constexpr std::uint32_t kQueue = 10;
 }  // namespace
 
 ScanOutput::ScanOutput(ros::NodeHandle& private_node, const NodeParameters& parameters,
-                       RobotFrames& frames, RayTable& rays,
-                       const std::function<void()>& listeners_changed)
-    : limits_{parameters.clearance_height, parameters.max_obstacle_height,
-              parameters.scan_missing_ground, 0.0},
-      tf_(parameters, frames),
-      rays_(rays) {
+                       RayTable& rays, const std::function<void()>& listeners_changed)
+    : limits_(obstacleLimits(parameters, 0.0)), rays_(rays) {
+  limits_.missing_ground = parameters.scan_missing_ground;
   const ros::SubscriberStatusCallback changed =
       [listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); };
   publisher_ =
@@ -26,14 +23,12 @@ ScanOutput::ScanOutput(ros::NodeHandle& private_node, const NodeParameters& para
 }
 
 void ScanOutput::publish(const DetectionInputs::Frame& frame, const Detection& detection,
-                         double range_max) {
-  if (!detection.found() || !anybodyListens()) return;
-  const auto on_ground = tf_.publish(frame.header, detection);
-  if (!on_ground || publisher_.getNumSubscribers() == 0) return;
+                         const std::optional<std::string>& ground_frame, double range_max) {
+  if (!detection.found() || !ground_frame || !anybodyListens()) return;
   limits_.range_max = range_max;
   rays_.build(frame.camera);
   std_msgs::Header header = frame.header;
-  header.frame_id = *on_ground;
+  header.frame_id = *ground_frame;
   publisher_.publish(scanMessage(header, scanner_.scan(frame.depth, rays_, detection, limits_)));
 }
 

@@ -32,5 +32,8 @@ constexpr const char* kHeightImage = "height_image";
 constexpr const char* kOutline = "outline";
 constexpr const char* kMarkers = "markers";
 constexpr const char* kScan = "scan";
+constexpr const char* kLocalMap = "local_map";
+constexpr const char* kObstacleBoxes = "obstacle_boxes";
+constexpr const char* kBoxMarkers = "obstacle_box_markers";
 
 }  // namespace dominant_plane_detection::topics

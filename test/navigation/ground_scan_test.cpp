@@ -62,11 +62,11 @@ class Sight {
     });
   }
 
-  const GroundScan& scan(const ScanLimits& limits = {}) {
+  const GroundScan& scan(const ObstacleLimits& limits = {}) {
     return scanner_.scan(depth_.view(), rays_, detection_, limits);
   }
   /// @return [m] the reading in a direction.
-  double at(double direction, const ScanLimits& limits = {}) {
+  double at(double direction, const ObstacleLimits& limits = {}) {
     const GroundScan& s = scan(limits);
     const double index = (direction - s.angle_min) / s.angle_increment;
     return static_cast<double>(s.ranges.at(static_cast<std::size_t>(std::lround(index))));
@@ -169,7 +169,7 @@ TEST(GroundScanner, OnlyWhatTheRobotTouchesCounts) {
   Sight sight(0.3, 0.0);
   sight.addPost(0.0, 1.6, 0.0, 0.05);
   sight.addPost(0.2, 1.6, 0.45, 0.8);
-  ScanLimits robot;
+  ObstacleLimits robot;
   EXPECT_NEAR(sight.at(0.0, robot), 1.6, 0.002);
   EXPECT_NEAR(sight.at(0.2, robot), 1.6, 0.002);
   robot.clearance_height = 0.06;
@@ -184,7 +184,7 @@ TEST(GroundScanner, ADropOffIsAtItsEdge) {
   EXPECT_NEAR(sight.at(0.0), 1.3, 0.03);
   sight.mark(0.2, 1.3, Label::kMissingGround);
   EXPECT_FALSE(std::isfinite(sight.at(0.2)));
-  ScanLimits careful;
+  ObstacleLimits careful;
   careful.missing_ground = true;
   EXPECT_NEAR(sight.at(0.2, careful), 1.3, 0.03);
 }

@@ -7,9 +7,8 @@
 
 #include "core/ray_table.h"
 #include "navigation/ground_scan.h"
-#include "synthetic/drawn_scene.h"
+#include "navigation/room_things.h"
 #include "synthetic/renderer.h"
-#include "synthetic/scene_random.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -17,69 +16,10 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kRange = 3.8;  // [m] nearer than any wall; readings beyond are not judged
 
-/// Something that stands on the floor.
-struct Thing {
-  Eigen::Vector2d place;  ///< [m]
-  double yaw;
-  Eigen::Vector3d size;
-  bool round;
-
-  bool contains(const Eigen::Vector3d& point) const {
-    constexpr double kSkin = 0.003;  // [m] a cylinder is a prism
-    const Eigen::Vector2d at = Eigen::Rotation2Dd(-yaw) * (point.head<2>() - place);
-    if (point.z() > size.z() + kSkin) return false;
-    if (round) return at.norm() < 0.5 * size.x() + kSkin;
-    return (at.cwiseAbs() - 0.5 * size.head<2>()).maxCoeff() < kSkin;
-  }
-};
-
-struct Room {
-  Scene scene;
-  std::vector<Thing> things;
-};
-
-Room draw(SceneRandom& random) {
-  Room room;
-  Scene& scene = room.scene;
-  scene.camera = kinectCamera();
-  scene.path.keys.push_back({0.0,
-                             {0.0, 0.0, random.between(0.4, 1.0)},
-                             (random.chance(0.5) ? 10.0 : -10.0) * kDegree,
-                             20.0 * kDegree,
-                             0.0});
-  scene.add(rectangleMesh(30.0, 30.0), Eigen::Isometry3d::Identity()).ground = true;
-  for (const double side : {0.0, 0.5 * M_PI, -0.5 * M_PI}) {
-    const double away = random.between(3.9, 5.0);
-    place(scene, boxMesh({0.1, 16.0, 2.5}), {away * std::cos(side), away * std::sin(side), 0.0},
-          side);
-  }
-  for (int i = random.count(3, 6); i > 0; --i) {
-    const double x = random.between(0.9, 3.4);
-    Thing thing{{x, random.between(-0.5, 0.5) * x},
-                random.between(-M_PI, M_PI),
-                {random.between(0.05, 0.4), random.between(0.05, 0.4),
-                 random.chance(0.5) ? random.between(0.02, 0.1) : random.between(0.1, 0.6)},
-                random.chance(0.4)};
-    place(scene,
-          thing.round ? cylinderMesh(0.5 * thing.size.x(), thing.size.z()) : boxMesh(thing.size),
-          {thing.place.x(), thing.place.y(), 0.0}, thing.yaw);
-    room.things.push_back(thing);
-  }
-  return room;
-}
-
-Room scanRoom(std::uint32_t seed) {
-  SceneRandom random(seed);
-  while (true) {
-    Room room = draw(random);
-    if (showsEnoughFloor(room.scene)) return room;
-  }
-}
-
 /// What really is in each direction, half a degree wide.
 class Truth {
  public:
-  Truth(const Room& room, const Rendering& exact) : things_(room.things.size()) {
+  Truth(const RoomOfThings& room, const Rendering& exact) : things_(room.things.size()) {
     RayTable rays;
     rays.build(room.scene.camera);
     const Eigen::Isometry3d camera = room.scene.path.keys.front().pose();
@@ -223,7 +163,7 @@ ScanFigures scanFigures(ErrorKind error, ScanRule rule, std::uint32_t first, int
   GroundScanner scanner;
   RayTable rays;
   for (std::uint32_t seed = first; seed < first + static_cast<std::uint32_t>(count); ++seed) {
-    const Room room = scanRoom(seed);
+    const RoomOfThings room = roomOfThings(seed);
     Layers layers;
     layers.shadow = true;
     const CameraModel& camera = room.scene.camera;

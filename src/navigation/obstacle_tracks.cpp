@@ -1,0 +1,69 @@
+#include "navigation/obstacle_tracks.h"
+
+#include <algorithm>
+
+namespace dominant_plane_detection {
+namespace {
+
+constexpr double kMemory = 1.0;  // [s]
+/// [m] How far the centre of one box may be from the other: what odometry and the box's own error
+/// make of it between two images, or a person who walks.
+constexpr double kGate = 0.2;
+
+/// @return [m] of a place on the ground from a box; 0 within it.
+double distanceTo(const UprightBox& box, const Eigen::Vector2d& place) {
+  const Eigen::Vector2d at = Eigen::Rotation2Dd(-box.yaw) * (place - box.centre);
+  return (at.cwiseAbs() - 0.5 * Eigen::Vector2d(box.length, box.width)).cwiseMax(0.0).norm();
+}
+
+}  // namespace
+
+const std::vector<TrackedBox>& ObstacleTracks::follow(double stamp,
+                                                      const std::vector<UprightBox>& boxes,
+                                                      const Eigen::Isometry2d& T_world_ground) {
+  if (stamp < stamp_) forget();
+  stamp_ = stamp;
+  things_.erase(std::remove_if(things_.begin(), things_.end(),
+                               [&](const Thing& t) { return t.stamp < stamp - kMemory; }),
+                things_.end());
+  in_world_ = boxes;
+  const double turn = Eigen::Rotation2Dd(T_world_ground.linear()).smallestAngle();
+  for (UprightBox& box : in_world_) {
+    box.centre = T_world_ground * box.centre;
+    box.yaw += turn;
+  }
+  collectFits();
+  tracked_.clear();
+  for (const UprightBox& box : boxes) tracked_.push_back({0, 0, box});
+  taken_.assign(things_.size(), false);
+  for (const Fit& fit : fits_) {
+    TrackedBox& tracked = tracked_[fit.box];
+    if (tracked.id != 0 || taken_[fit.thing]) continue;
+    taken_[fit.thing] = true;
+    Thing& thing = things_[fit.thing];
+    thing = {thing.id, thing.images + 1, stamp, in_world_[fit.box]};
+    tracked.id = thing.id, tracked.images = thing.images;
+  }
+  for (std::size_t i = 0; i < tracked_.size(); ++i) {
+    if (tracked_[i].id != 0) continue;
+    things_.push_back({++last_id_, 1, stamp, in_world_[i]});
+    tracked_[i].id = last_id_, tracked_[i].images = 1;
+  }
+  return tracked_;
+}
+
+/// The best first. Of a wall, of which each image shows another part, the centre moves along it.
+void ObstacleTracks::collectFits() {
+  fits_.clear();
+  for (std::size_t i = 0; i < in_world_.size(); ++i) {
+    for (std::size_t k = 0; k < things_.size(); ++k) {
+      const UprightBox &box = in_world_[i], &thing = things_[k].box;
+      const double apart = std::min(distanceTo(box, thing.centre), distanceTo(thing, box.centre));
+      if (apart <= kGate) fits_.push_back({(box.centre - thing.centre).norm(), i, k});
+    }
+  }
+  std::sort(fits_.begin(), fits_.end(),
+            [](const Fit& a, const Fit& b) { return a.distance < b.distance; });
+}
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <functional>
+
+#include "core/ray_table.h"
+#include "navigation/obstacle_boxes.h"
+#include "navigation/obstacle_tracks.h"
+#include "ros/detection_inputs.h"
+#include "ros/node_parameters.h"
+#include "ros/robot_frames.h"
+
+namespace dominant_plane_detection {
+
+/// The topics `~obstacle_boxes` and, for rviz, `~obstacle_box_markers`: obstacles as things, which
+/// keep their identities by `odom_frame`, or, without one, as long as they move little from image
+/// to image.
+class BoxOutput {
+ public:
+  /// @param rays shared with whoever needs those of the same images.
+  BoxOutput(ros::NodeHandle& private_node, const NodeParameters& parameters, RobotFrames& frames,
+            RayTable& rays, const std::function<void()>& listeners_changed);
+
+  bool anybodyListens() const {
+    return boxes_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0;
+  }
+  /// Without a plane there are none, which is said.
+  /// @param range_max [m] farthest depth that was looked at.
+  void publish(const DetectionInputs::Frame& frame, const Detection& detection, double range_max);
+
+ private:
+  Eigen::Isometry2d groundInWorld(const std_msgs::Header& header,
+                                  const Eigen::Isometry3d& T_ground_optical);
+
+  NodeParameters parameters_;
+  RobotFrames& frames_;
+  RayTable& rays_;
+  ObstacleBoxes finder_;
+  ObstacleTracks tracks_;
+  bool in_odometry_ = false;  ///< whether things are followed by it, now
+  ros::Publisher boxes_;
+  ros::Publisher markers_;
+};
+
+}  // namespace dominant_plane_detection
