@@ -6,64 +6,18 @@
 #include <limits>
 
 #include "navigation/ground_frame.h"
-#include "support/synthetic_depth.h"
+#include "navigation/ground_sight.h"
 
 namespace dominant_plane_detection {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
-constexpr double kHeight = 0.6;  // [m]
+constexpr double kHeight = kSightHeight;
 
-/// What a camera sees of the floor and of a post, by own arithmetic: pixels whose ray hits the
-/// upright cylinder about the post before the floor.
-class Sight {
+class Sight : public GroundSight {
  public:
-  Sight(double pitch, double roll, CameraModel camera = testCamera())
-      : camera_(camera), up_(upOf(pitch, roll)), depth_(planeDepth(camera, up_, kHeight)) {
-    rays_.build(camera_);
-    detection_.state = State::kFound;
-    detection_.normal = up_;
-    detection_.distance = kHeight;
-    detection_.image_width = camera_.width;
-    detection_.image_height = camera_.height;
-    detection_.labels.assign(depth_.pixels.size(), 0);
-    for (std::size_t i = 0; i < depth_.pixels.size(); ++i) {
-      const bool near = depth_.pixels[i] > 0.0F && depth_.pixels[i] < 4.0F;
-      detection_.labels[i] = static_cast<std::uint8_t>(near ? Label::kGround : Label::kUnknown);
-    }
-    const Eigen::Vector3d view = Eigen::Vector3d::UnitZ() - up_.z() * up_;
-    ahead_ = view.normalized();
-    left_ = up_.cross(ahead_);
-  }
-
-  /// A post as wide as the beam of an angle, from the ground up.
-  /// @param direction [rad] > 0 left. @param range [m] of its face from the camera's foot.
-  void addPost(double direction, double range, double low, double high,
-               Label label = Label::kObstacle) {
-    forEachPixel([&](std::size_t i, const Eigen::Vector3d& ray) {
-      const double forward = ray.dot(ahead_), sideways = ray.dot(left_), upward = ray.dot(up_);
-      const double along = std::hypot(forward, sideways);
-      const double z = range / along, height = kHeight + z * upward;
-      const double off = std::atan2(sideways, forward) - direction;
-      if (std::abs(off) > 1.5 * kDegree || height < low || height > high) return;
-      depth_.pixels[i] = static_cast<float>(z);
-      detection_.labels[i] = static_cast<std::uint8_t>(label);
-    });
-  }
-  /// Labels what is on the floor in a direction, beyond a range.
-  void mark(double direction, double range, Label label) {
-    forEachPixel([&](std::size_t i, const Eigen::Vector3d& ray) {
-      const double forward = ray.dot(ahead_), sideways = ray.dot(left_), upward = ray.dot(up_);
-      if (!(upward < 0.0)) return;
-      const double off = std::atan2(sideways, forward) - direction;
-      const double at = -kHeight / upward * std::hypot(forward, sideways);
-      if (std::abs(off) > 1.5 * kDegree || at < range) return;
-      detection_.labels[i] = static_cast<std::uint8_t>(label);
-    });
-  }
-
+  using GroundSight::GroundSight;
   const GroundScan& scan(const ObstacleLimits& limits = {}) {
-    return scanner_.scan(depth_.view(), rays_, detection_, limits);
+    return scanner_.scan(depth(), rays(), detection(), limits);
   }
   /// @return [m] the reading in a direction.
   double at(double direction, const ObstacleLimits& limits = {}) {
@@ -71,23 +25,8 @@ class Sight {
     const double index = (direction - s.angle_min) / s.angle_increment;
     return static_cast<double>(s.ranges.at(static_cast<std::size_t>(std::lround(index))));
   }
-  Detection& detection() { return detection_; }
 
  private:
-  template <typename Visit>
-  void forEachPixel(Visit&& visit) {
-    for (int v = 0; v < camera_.height; ++v) {
-      for (int u = 0; u < camera_.width; ++u) {
-        visit(detection_.indexOf(u, v), rays_.ray(u, v).cast<double>());
-      }
-    }
-  }
-
-  CameraModel camera_;
-  Eigen::Vector3d up_, ahead_, left_;
-  OwnedDepth<float> depth_;
-  RayTable rays_;
-  Detection detection_;
   GroundScanner scanner_;
 };
 

@@ -1,0 +1,92 @@
+#include "navigation/obstacle_tracks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace dominant_plane_detection {
+namespace {
+
+UprightBox boxAt(const Eigen::Vector2d& centre, double length = 0.2, double yaw = 0.0) {
+  UprightBox box;
+  box.centre = centre;
+  box.length = length;
+  box.width = 0.1;
+  box.yaw = yaw;
+  box.top = 0.3;
+  return box;
+}
+
+Eigen::Isometry2d pose(double x, double y, double yaw) {
+  Eigen::Isometry2d result = Eigen::Isometry2d::Identity();
+  result.translation() = Eigen::Vector2d(x, y);
+  result.linear() = Eigen::Rotation2Dd(yaw).toRotationMatrix();
+  return result;
+}
+
+/// A camera that turns and drives, fast: things are where they were.
+TEST(ObstacleTracks, OdometryKeepsIdentities) {
+  const std::vector<Eigen::Vector2d> things = {{2.0, 0.5}, {2.5, -0.4}, {3.0, 0.1}};
+  ObstacleTracks tracks;
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Isometry2d camera = pose(0.1 * i, 0.02 * i, 0.15 * i);
+    std::vector<UprightBox> boxes;
+    for (std::size_t k = 0; k < things.size(); ++k) {
+      boxes.push_back(boxAt(camera.inverse() * things[(k + i) % things.size()]));
+    }
+    const auto& tracked = tracks.follow(0.1 * i, boxes, camera);
+    ASSERT_EQ(tracked.size(), things.size());
+    for (std::size_t k = 0; k < things.size(); ++k) {
+      EXPECT_EQ(tracked[k].id, (k + i) % things.size() + 1);
+      EXPECT_EQ(tracked[k].images, static_cast<std::uint32_t>(i + 1));
+      EXPECT_EQ(tracked[k].box.centre, boxes[k].centre);
+    }
+  }
+}
+
+TEST(ObstacleTracks, WithoutOdometryWhatMovesLittleIsTheSame) {
+  ObstacleTracks tracks;
+  const Eigen::Isometry2d none = Eigen::Isometry2d::Identity();
+  EXPECT_EQ(tracks.follow(0.0, {boxAt({2.0, 0.0})}, none)[0].id, 1U);
+  EXPECT_EQ(tracks.follow(0.1, {boxAt({1.9, 0.1})}, none)[0].id, 1U);
+  EXPECT_EQ(tracks.follow(0.2, {boxAt({1.4, 0.1})}, none)[0].id, 2U);
+}
+
+/// Each box is the thing that it fits best, and one of them only.
+TEST(ObstacleTracks, TheNearestIsTheSame) {
+  ObstacleTracks tracks;
+  const Eigen::Isometry2d none = Eigen::Isometry2d::Identity();
+  tracks.follow(0.0, {boxAt({2.0, 0.0}), boxAt({2.0, 0.25})}, none);
+  const auto& tracked =
+      tracks.follow(0.1, {boxAt({2.0, 0.2}), boxAt({2.0, -0.05}), boxAt({2.0, 0.1})}, none);
+  EXPECT_EQ(tracked[0].id, 2U);
+  EXPECT_EQ(tracked[1].id, 1U);
+  EXPECT_EQ(tracked[2].id, 3U);
+}
+
+/// Of a wall each image shows another part.
+TEST(ObstacleTracks, AWallMayMoveAlongItself) {
+  ObstacleTracks tracks;
+  const Eigen::Isometry2d none = Eigen::Isometry2d::Identity();
+  tracks.follow(0.0, {boxAt({3.0, 0.0}, 2.0, 0.5 * M_PI)}, none);
+  EXPECT_EQ(tracks.follow(0.1, {boxAt({3.0, 0.6}, 1.2, 0.5 * M_PI)}, none)[0].id, 1U);
+  EXPECT_EQ(tracks.follow(0.2, {boxAt({3.5, 0.6}, 1.2, 0.5 * M_PI)}, none)[0].id, 2U);
+}
+
+TEST(ObstacleTracks, WhatIsNotSeenForASecondIsForgotten) {
+  ObstacleTracks tracks;
+  const Eigen::Isometry2d none = Eigen::Isometry2d::Identity();
+  tracks.follow(0.0, {boxAt({2.0, 0.0})}, none);
+  tracks.follow(0.5, {}, none);
+  EXPECT_EQ(tracks.follow(0.9, {boxAt({2.0, 0.0})}, none)[0].id, 1U);
+  tracks.follow(1.5, {}, none);
+  EXPECT_EQ(tracks.follow(2.0, {boxAt({2.0, 0.0})}, none)[0].id, 2U);
+  // A recording that begins again has other things.
+  EXPECT_EQ(tracks.follow(0.0, {boxAt({2.0, 0.0})}, none)[0].id, 3U);
+  tracks.forget();
+  EXPECT_EQ(tracks.follow(0.1, {boxAt({2.0, 0.0})}, none)[0].id, 4U);
+}
+
+}  // namespace
+}  // namespace dominant_plane_detection
