@@ -21,9 +21,6 @@ constexpr float kThing = 0.05F;
 constexpr float kShare = 0.25F;
 /// [m] What reaches down to here stands on the ground.
 constexpr float kFoot = 0.1F;
-/// [-] Of the local error: 4.2 is what one of the 160 x 120 blocks of an image exceeds in every
-/// fifth image (`false_alarm_rate`), 0.6 leave a box its own error.
-constexpr double kToldFrom = 4.8;
 constexpr double kSigmas = 3.0F;
 
 /// @return whether a point may be in an image, generously: farther out distortion is not meant for
@@ -42,12 +39,6 @@ bool isAbout(const CameraModel& camera, const Eigen::Vector3f& point) {
 }
 
 }  // namespace
-
-double freeRange(const NoiseModel& local_error, double height) {
-  const double rest = height / kToldFrom - local_error.constant;
-  if (!(local_error.quadratic > 0.0)) return rest > 0.0 ? 1e9 : 0.0;
-  return std::sqrt(std::max(rest, 0.0) / local_error.quadratic);
-}
 
 LocalMap::LocalMap(double resolution, double size, double memory)
     : grid_(resolution, std::max(static_cast<int>(std::lround(size / resolution)), 1)),

@@ -19,11 +19,6 @@ struct MapLimits : ObstacleLimits {
   double free_range = 4.0;  ///< [m] depth of the farthest ground that makes a cell free
 };
 
-/// @param local_error rms of 4 x 4 pixels over the ground about them.
-/// @return [m] the depth to which things of a height are told from the ground: farther away what
-/// looks like ground may be one.
-double freeRange(const NoiseModel& local_error, double height);
-
 /// A square of the ground about the camera, which moves with it: what is free, what stands there,
 /// what was not seen (A. Elfes, "Using occupancy grids for mobile robot perception and navigation",
 /// Computer 22(6), 1989; limits and increments of the log-odds as in A. Hornung et al., "OctoMap",

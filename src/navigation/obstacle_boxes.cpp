@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "navigation/ground_frame.h"
+#include "navigation/told_height.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -81,14 +82,17 @@ bool isSteep(const DepthView& depth, const RayTable& rays, const Eigen::Matrix3f
 
 const std::vector<UprightBox>& ObstacleBoxes::find(const DepthView& depth, const RayTable& rays,
                                                    const Detection& detection,
-                                                   const ObstacleLimits& limits) {
+                                                   const ObstacleLimits& limits,
+                                                   const NoiseModel& local_error) {
   boxes_.clear();
   if (!detection.found()) return boxes_;
   begin(rays, detection);
   collect(depth, rays, detection, limits);
   sortPoints();
   for (std::size_t i = 0; i + 1 < begins_.size(); ++i) {
-    measure(sorted_.data() + begins_[i], sorted_.data() + begins_[i + 1]);
+    const Point* const first = sorted_.data() + begins_[i];
+    const Point* const last = sorted_.data() + begins_[i + 1];
+    if (isThing(first, last, local_error)) measure(first, last);
   }
   std::sort(boxes_.begin(), boxes_.end(),
             [](const UprightBox& a, const UprightBox& b) { return a.distance < b.distance; });
@@ -199,17 +203,23 @@ void ObstacleBoxes::sortPoints() {
   for (const Point& point : points_) sorted_[counts[point.thing]++] = point;
 }
 
-void ObstacleBoxes::measure(const Point* first, const Point* last) {
-  const auto sum = [&](auto&& value) {
-    float all = 0.0F;
-    for (const Point* p = first; p != last; ++p) all += value(*p);
-    return all;
-  };
-  const float area = sum([&](const Point& p) { return pixel_ * p.z * p.z; });
-  const float steep = sum([](const Point& p) { return p.steep ? 1.0F : 0.0F; });
-  if (area < kLeastArea) return;
+bool ObstacleBoxes::isThing(const Point* first, const Point* last, const NoiseModel& local_error) {
+  float area = 0.0F, steep = 0.0F, nearest = INFINITY;
+  for (const Point* p = first; p != last; ++p) {
+    area += pixel_ * p->z * p->z;
+    steep += p->steep ? 1.0F : 0.0F;
+    nearest = std::min(nearest, p->z);
+  }
+  if (area < kLeastArea) return false;
   const Extent heights = extentOf(first, last, bins_, [](const Point& p) { return p.height; });
-  if (heights.low < kBent && steep < kSteepShare * static_cast<float>(last - first)) return;
+  if (heights.low >= kBent) return true;
+  const double told = toldHeight(local_error, static_cast<double>(nearest));
+  return steep >= kSteepShare * static_cast<float>(last - first) &&
+         static_cast<double>(heights.high) >= told;
+}
+
+void ObstacleBoxes::measure(const Point* first, const Point* last) {
+  const Extent heights = extentOf(first, last, bins_, [](const Point& p) { return p.height; });
   Extent along, across;
   float least = INFINITY, yaw = 0.0F;
   for (int k = 0; k < kDirections; ++k) {

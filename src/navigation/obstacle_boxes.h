@@ -8,6 +8,7 @@
 #include "core/ray_table.h"
 #include "dominant_plane_detection/depth_image.h"
 #include "dominant_plane_detection/detection.h"
+#include "dominant_plane_detection/noise_model.h"
 #include "navigation/obstacle_limits.h"
 
 namespace dominant_plane_detection {
@@ -26,15 +27,18 @@ struct UprightBox {
 ///
 /// Neighbouring pixels are of one thing where their readings are, in depth or, on its top that is
 /// seen at a low angle, in height. A thing is drawn as the upright box of least area that has
-/// nearly all of its readings. What reaches down to the ground needs a steep face: a floor that
-/// the camera's error bends has none.
+/// nearly all of its readings. What reaches down to the ground needs a steep face, and to be higher
+/// than the error of the ground there (`toldHeight`): a floor that the camera's error bends has
+/// none.
 class ObstacleBoxes {
  public:
   /// @param rays of the detection's camera.
+  /// @param local_error rms of 4 x 4 pixels over the ground about them.
   /// @return in the frame on the ground (`groundFromOptical`), the nearest first; none without a
   /// plane. Valid until the next call.
   const std::vector<UprightBox>& find(const DepthView& depth, const RayTable& rays,
-                                      const Detection& detection, const ObstacleLimits& limits);
+                                      const Detection& detection, const ObstacleLimits& limits,
+                                      const NoiseModel& local_error);
 
  private:
   /// A reading of an obstacle.
@@ -56,6 +60,7 @@ class ObstacleBoxes {
   void link(std::uint32_t a, std::uint32_t b);
   std::uint32_t thingOf(std::uint32_t point);
   void sortPoints();
+  bool isThing(const Point* first, const Point* last, const NoiseModel& local_error);
   void measure(const Point* first, const Point* last);
 
   Eigen::Matrix3f rotation_ = Eigen::Matrix3f::Identity();  ///< R_ground_optical

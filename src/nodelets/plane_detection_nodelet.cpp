@@ -146,7 +146,7 @@ void PlaneDetectionNodelet::detect(const DetectionInputs::Frame& frame) {
   const auto ground_frame = groundFrame(frame, detection);
   scan_->publish(frame, detection, ground_frame, parameters.range_max);
   map_->publish(frame, detection, ground_frame, parameters);
-  boxes_->publish(frame, detection, parameters.range_max);
+  boxes_->publish(frame, detection, parameters);
   clouds_->publish(frame, detection);  // after the tf that they may be in
   overlay_->publish(frame, detection);
 }

@@ -24,7 +24,7 @@ BoxOutput::BoxOutput(ros::NodeHandle& private_node, const NodeParameters& parame
 }
 
 void BoxOutput::publish(const DetectionInputs::Frame& frame, const Detection& detection,
-                        double range_max) {
+                        const Parameters& detector) {
   if (!anybodyListens()) return;
   Eigen::Isometry3d T_ground_optical = Eigen::Isometry3d::Identity();
   std::vector<TrackedBox> boxes;
@@ -32,7 +32,8 @@ void BoxOutput::publish(const DetectionInputs::Frame& frame, const Detection& de
     T_ground_optical = groundFromOptical(detection.normal, detection.distance);
     rays_.build(frame.camera);
     const auto& found =
-        finder_.find(frame.depth, rays_, detection, obstacleLimits(parameters_, range_max));
+        finder_.find(frame.depth, rays_, detection, obstacleLimits(parameters_, detector.range_max),
+                     detector.local_error);
     boxes = tracks_.follow(frame.header.stamp.toSec(), found,
                            groundInWorld(frame.header, T_ground_optical));
   }

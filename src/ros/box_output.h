@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/ray_table.h"
+#include "dominant_plane_detection/parameters.h"
 #include "navigation/obstacle_boxes.h"
 #include "navigation/obstacle_tracks.h"
 #include "ros/detection_inputs.h"
@@ -26,8 +27,9 @@ class BoxOutput {
     return boxes_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0;
   }
   /// Without a plane there are none, which is said.
-  /// @param range_max [m] farthest depth that was looked at.
-  void publish(const DetectionInputs::Frame& frame, const Detection& detection, double range_max);
+  /// @param detector what the detection was made with.
+  void publish(const DetectionInputs::Frame& frame, const Detection& detection,
+               const Parameters& detector);
 
  private:
   Eigen::Isometry2d groundInWorld(const std_msgs::Header& header,

@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include "navigation/ground_frame.h"
+#include "navigation/told_height.h"
 #include "ros/detection_messages.h"
 #include "ros/topic_names.h"
 

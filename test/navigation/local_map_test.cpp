@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "navigation/ground_sight.h"
+#include "navigation/told_height.h"
 
 namespace dominant_plane_detection {
 namespace {

@@ -12,6 +12,7 @@
 #include "navigation/ground_frame.h"
 #include "navigation/local_map.h"
 #include "navigation/room_things.h"
+#include "navigation/told_height.h"
 #include "synthetic/drawn_scene.h"
 #include "synthetic/renderer.h"
 #include "synthetic/scene_random.h"
@@ -21,7 +22,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kCell = 0.05, kSize = 8.0, kMemory = 10.0;
-constexpr double kHeight = 0.45, kPitch = 20.0 * kDegree, kSpeed = 0.45;
+constexpr double kCameraAhead = 0.1, kHeight = 0.45, kPitch = 20.0 * kDegree, kSpeed = 0.45;
 constexpr double kTold = 0.05;                 // [m]
 constexpr double kArea = 0.5 * kCell * kCell;  // [m^2] of things in a cell that counts
 
@@ -164,6 +165,23 @@ class Seen {
   std::vector<std::vector<double>> things_;
 };
 
+/// @return the cells of which an exact image shows floor.
+std::set<Seen::Cell> floorCells(const Rendering& exact, const RayTable& rays,
+                                const Eigen::Isometry3d& camera, double free_range) {
+  std::set<Seen::Cell> cells;
+  for (int v = 0; v < exact.height; ++v) {
+    for (int u = 0; u < exact.width; ++u) {
+      const std::size_t i = static_cast<std::size_t>(v * exact.width + u);
+      const double z = static_cast<double>(exact.depth[i]);
+      const bool floor = exact.labels[i] == static_cast<std::uint8_t>(Label::kGround);
+      if (!floor || !(z > 0.5 && z < free_range)) continue;
+      const Eigen::Vector3d at = camera * (z * rays.ray(u, v).cast<double>());
+      cells.insert(Seen::cellOf(at.head<2>()));
+    }
+  }
+  return cells;
+}
+
 /// A map against the plan, cell by cell of the map.
 class Comparison {
  public:
@@ -263,6 +281,27 @@ Eigen::Isometry3d in3d(const Eigen::Isometry2d& pose) {
   return result;
 }
 
+MapLimits limitsOf(const Parameters& parameters) {
+  MapLimits limits;
+  limits.noise = parameters.noise;
+  limits.range_max = parameters.range_max;
+  limits.free_range = freeRange(parameters.local_error, kTold);
+  return limits;
+}
+
+/// @return T_base_optical
+Eigen::Isometry3d mountOfRobot() {
+  return KeyPose{0.0, {kCameraAhead, 0.0, kHeight}, 0.0, kPitch, 0.0}.pose();
+}
+
+Prior priorOf(const Eigen::Isometry3d& mount) {
+  Prior prior;
+  prior.expected_up = mount.linear().transpose() * Eigen::Vector3d::UnitZ();
+  prior.up_source = UpSource::kTf;
+  prior.expected_height = Prior::ExpectedHeight{kHeight, 0.125};
+  return prior;
+}
+
 }  // namespace
 
 MapFigures driveThroughRoom(std::uint32_t seed, ErrorKind error, double seconds, double rate,
@@ -272,17 +311,13 @@ MapFigures driveThroughRoom(std::uint32_t seed, ErrorKind error, double seconds,
   SceneRandom random(1000 + seed);
   const double way_error = random.between(-0.01, 0.01), turn_error = random.between(-0.01, 0.01);
   DominantPlaneDetector detector(parametersOf(error));
-  const Parameters& parameters = detector.parameters();
-  MapLimits limits;
-  limits.noise = parameters.noise;
-  limits.range_max = parameters.range_max;
-  limits.free_range = freeRange(parameters.local_error, kTold);
+  const MapLimits limits = limitsOf(detector.parameters());
   LocalMap map(kCell, kSize, kMemory);
   RayTable rays;
   rays.build(room.scene.camera);
   Seen seen;
   MapFigures figures;
-  const Eigen::Isometry3d mount = KeyPose{0.0, {0.1, 0.0, kHeight}, 0.0, kPitch, 0.0}.pose();
+  const Eigen::Isometry3d mount = mountOfRobot();
   double angle = random.between(0.0, 2.0 * M_PI);
   Eigen::Isometry2d base = room.way.at(angle);
   Eigen::Isometry2d odometry = Eigen::Isometry2d::Identity();
@@ -295,15 +330,11 @@ MapFigures driveThroughRoom(std::uint32_t seed, ErrorKind error, double seconds,
     const Rendering exact = renderer.render(camera, layers);
     const auto pixels = readDepth(exact, error, 100000 * seed + static_cast<unsigned>(frame));
     const DepthView view(pixels.data(), exact.width, exact.height);
-    Prior prior;
-    prior.expected_up = mount.linear().transpose() * Eigen::Vector3d::UnitZ();
-    prior.up_source = UpSource::kTf;
-    prior.expected_height = Prior::ExpectedHeight{kHeight, 0.125};
-    const Detection& detection = detector.detect(view, room.scene.camera, prior);
+    const Detection& detection = detector.detect(view, room.scene.camera, priorOf(mount));
     seen.add(time, room, exact, camera, limits.free_range);
     if (detection.found()) {
       Eigen::Isometry2d ground = odometry;
-      ground.translate(Eigen::Vector2d(0.1, 0.0));
+      ground.translate(Eigen::Vector2d(kCameraAhead, 0.0));
       const auto begin = std::chrono::steady_clock::now();
       map.add(time, view, rays, detection, limits, ground);
       const std::chrono::duration<double, std::milli> took =
@@ -329,6 +360,71 @@ MapFigures driveThroughRoom(std::uint32_t seed, ErrorKind error, double seconds,
     odometry.translate(Eigen::Vector2d((1.0 + way_error) * moved.translation()));
     odometry.rotate(Eigen::Rotation2Dd((1.0 + turn_error) * turn));
     base = next;
+  }
+  return figures;
+}
+
+PersonFigures letPersonWalkPast(ErrorKind error, std::uint32_t seed, double speed, double rate) {
+  constexpr double kGoes = 3.0, kWalks = 1.0, kAfter = 3.0;  // [s], [m/s], [s]
+  SceneRandom random(seed);
+  const double ahead = random.between(1.6, 2.4);
+  const auto personAt = [&](double time) {
+    return Eigen::Vector2d(ahead, kWalks * (time - 0.5 * kGoes));
+  };
+  DominantPlaneDetector detector(parametersOf(error));
+  const MapLimits limits = limitsOf(detector.parameters());
+  LocalMap map(kCell, kSize, kMemory);
+  RayTable rays;
+  rays.build(kinectCamera());
+  const Eigen::Isometry3d mount = mountOfRobot();
+  std::set<Seen::Cell> occupied, freed;
+  const auto stateAt = [&](const Seen::Cell& cell) {
+    const Eigen::Vector2d place((cell.first + 0.5) * kCell, (cell.second + 0.5) * kCell);
+    const Eigen::Vector2d at = (place - map.grid().origin()) / kCell;
+    return map.state(static_cast<int>(at.x()), static_cast<int>(at.y()));
+  };
+  PersonFigures figures;
+  const int frames = static_cast<int>((kGoes + kAfter) * rate);
+  for (int frame = 0; frame <= frames; ++frame) {
+    const double time = frame / rate;
+    Scene scene;
+    scene.camera = kinectCamera();
+    scene.add(rectangleMesh(30.0, 30.0), Eigen::Isometry3d::Identity()).ground = true;
+    place(scene, boxMesh({0.1, 16.0, 2.5}), {5.0, 0.0, 0.0}, 0.0);
+    if (time < kGoes) {
+      const Eigen::Vector2d person = personAt(time);
+      place(scene, cylinderMesh(0.2, 1.7), {person.x(), person.y(), 0.0}, 0.0);
+    }
+    Eigen::Isometry2d base = Eigen::Isometry2d::Identity();
+    base.translation().x() = speed * time;
+    const Eigen::Isometry3d camera = in3d(base) * mount;
+    Layers layers;
+    layers.shadow = true;
+    const Rendering exact = Renderer(scene).render(camera, layers);
+    const auto pixels = readDepth(exact, error, 1000 * seed + static_cast<unsigned>(frame));
+    const DepthView view(pixels.data(), exact.width, exact.height);
+    const Detection& detection = detector.detect(view, scene.camera, priorOf(mount));
+    if (detection.found()) {
+      base.translate(Eigen::Vector2d(kCameraAhead, 0.0));
+      map.add(time, view, rays, detection, limits, base);
+    }
+    for (double y = -kWalks * kGoes; time < kGoes && y < kWalks * kGoes; y += kCell) {
+      for (double x = ahead - 0.3; x < ahead + 0.3; x += kCell) {
+        const Seen::Cell cell = Seen::cellOf({x, y});
+        if (stateAt(cell) == LocalMap::kOccupied) occupied.insert(cell);
+      }
+    }
+    for (const Seen::Cell& cell : occupied) {
+      if (time >= kGoes && stateAt(cell) == LocalMap::kFree) freed.insert(cell);
+    }
+    if (frame < frames) continue;
+    const std::set<Seen::Cell> floor = floorCells(exact, rays, camera, limits.free_range);
+    figures.occupied = static_cast<int>(occupied.size());
+    for (const Seen::Cell& cell : occupied) {
+      if (floor.count(cell) == 0) continue;
+      ++figures.trace;
+      figures.left += freed.count(cell) == 0;
+    }
   }
   return figures;
 }

@@ -36,5 +36,26 @@ TEST(MapDrives, WhatIsFreeIsFreeAndWhatStandsThereIsOccupied) {
   }
 }
 
+/// While the robot stands and while it drives, at 30 and at 10 images a second.
+TEST(MapDrives, APersonWhoWalkedPastLeavesNoTrace) {
+  const auto walks = static_cast<std::uint32_t>(longForm(2, 20));
+  for (const auto& [name, error] : {std::make_pair("kinect", ErrorKind::kKinect),
+                                    std::make_pair("realsense", ErrorKind::kRealsense)}) {
+    PersonFigures all;
+    for (std::uint32_t seed = 1; seed <= walks; ++seed) {
+      const double speed = seed % 2 == 0 ? 0.1 : 0.0;
+      const double rate = longForm(0, 1) == 1 && seed % 4 < 2 ? 30.0 : 10.0;
+      const PersonFigures f = letPersonWalkPast(error, seed, speed, rate);
+      EXPECT_GT(f.occupied, 60) << seed;
+      all.occupied += f.occupied, all.trace += f.trace, all.left += f.left;
+    }
+    std::cout << name << ": " << all.left << " of " << all.trace
+              << " cells not free within 3 s after the person, of " << all.occupied << " in "
+              << walks << " walks\n";
+    EXPECT_GT(2 * all.trace, all.occupied) << name;
+    EXPECT_LE(all.left, 0.01 * all.trace) << name;
+  }
+}
+
 }  // namespace
 }  // namespace dominant_plane_detection

@@ -12,8 +12,9 @@ namespace {
 class Boxes : public ::testing::Test {
  protected:
   const std::vector<UprightBox>& find(const ObstacleLimits& limits = {}) {
-    return finder_.find(sight_.depth(), sight_.rays(), sight_.detection(), limits);
+    return finder_.find(sight_.depth(), sight_.rays(), sight_.detection(), limits, local_error_);
   }
+  NoiseModel local_error_{0.0005, 0.0012};
   GroundSight sight_{25.0 * kDegree, 6.0 * kDegree};
 
  private:
@@ -107,6 +108,15 @@ TEST_F(Boxes, ABentFloorIsNone) {
     if (at.x() > 2.0) label = static_cast<std::uint8_t>(Label::kObstacle);
   });
   EXPECT_TRUE(find().empty());
+}
+
+TEST_F(Boxes, WhatIsLowerThanTheErrorOfTheGroundIsNone) {
+  sight_.addBox({1.5, -0.2, 0.0}, {1.7, 0.2, 0.04});
+  EXPECT_EQ(find().size(), 1U);
+  local_error_.quadratic = 0.005;  // 4.8 times it, 1.6 m away: 6 cm
+  EXPECT_TRUE(find().empty());
+  sight_.addBox({1.5, -0.2, 0.35}, {1.7, 0.2, 0.37});  // no ground is so high
+  EXPECT_EQ(find().size(), 1U);
 }
 
 TEST_F(Boxes, WithoutAPlaneThereAreNone) {
