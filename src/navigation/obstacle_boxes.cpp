@@ -22,8 +22,9 @@ constexpr float kApart = 0.25F;          // [m]
 
 constexpr float kLeastArea = 0.0016F;  // [m^2] of a thing, seen from the camera: 4 x 4 cm
 constexpr float kFoot = 0.1F;          // [m] what reaches down to here stands on the ground
-/// [m] What is higher is no ground that looks bent.
-constexpr float kBent = 0.3F;
+/// [m] What begins higher is no ground that looks bent: that begins at the ground band, 0.12 m at 4
+/// m.
+constexpr float kBent = 0.15F;
 /// [px] Rows over which steepness is told, [-] what a steep face has of the ground's fall in depth,
 /// and the least share of a thing that is steep.
 constexpr int kRows = 4;

@@ -88,6 +88,7 @@ class GroundSight {
     });
   }
 
+  const OwnedDepth<float>& metres() const { return depth_; }
   DepthView depth() const { return depth_.view(); }
   const RayTable& rays() const { return rays_; }
   Detection& detection() { return detection_; }
