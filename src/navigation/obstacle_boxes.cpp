@@ -30,6 +30,9 @@ constexpr float kBent = 0.15F;
 constexpr int kRows = 4;
 constexpr float kSteep = 0.5F, kSteepShare = 0.15F;
 
+/// [m] What is longer and wider is more than one thing.
+constexpr double kLargeLength = 1.2, kLargeWidth = 0.4;
+
 constexpr float kBin = 0.01F;       // [m] in which extents are told
 constexpr float kTrimmed = 0.005F;  // [-] of the readings at each end
 constexpr int kDirections = 18;     // [#] in which a box may lie, 5 degrees apart
@@ -91,8 +94,8 @@ const std::vector<UprightBox>& ObstacleBoxes::find(const DepthView& depth, const
   collect(depth, rays, detection, limits);
   sortPoints();
   for (std::size_t i = 0; i + 1 < begins_.size(); ++i) {
-    const Point* const first = sorted_.data() + begins_[i];
-    const Point* const last = sorted_.data() + begins_[i + 1];
+    Point* const first = sorted_.data() + begins_[i];
+    Point* const last = sorted_.data() + begins_[i + 1];
     if (isThing(first, last, local_error)) measure(first, last);
   }
   std::sort(boxes_.begin(), boxes_.end(),
@@ -204,14 +207,20 @@ void ObstacleBoxes::sortPoints() {
   for (const Point& point : points_) sorted_[counts[point.thing]++] = point;
 }
 
+/// @return [m^2] as seen from the camera.
+float ObstacleBoxes::areaOf(const Point* first, const Point* last) const {
+  float area = 0.0F;
+  for (const Point* p = first; p != last; ++p) area += pixel_ * p->z * p->z;
+  return area;
+}
+
 bool ObstacleBoxes::isThing(const Point* first, const Point* last, const NoiseModel& local_error) {
-  float area = 0.0F, steep = 0.0F, nearest = INFINITY;
+  if (areaOf(first, last) < kLeastArea) return false;
+  float steep = 0.0F, nearest = INFINITY;
   for (const Point* p = first; p != last; ++p) {
-    area += pixel_ * p->z * p->z;
     steep += p->steep ? 1.0F : 0.0F;
     nearest = std::min(nearest, p->z);
   }
-  if (area < kLeastArea) return false;
   const Extent heights = extentOf(first, last, bins_, [](const Point& p) { return p.height; });
   if (heights.low >= kBent) return true;
   const double told = toldHeight(local_error, static_cast<double>(nearest));
@@ -219,8 +228,8 @@ bool ObstacleBoxes::isThing(const Point* first, const Point* last, const NoiseMo
          static_cast<double>(heights.high) >= told;
 }
 
-void ObstacleBoxes::measure(const Point* first, const Point* last) {
-  const Extent heights = extentOf(first, last, bins_, [](const Point& p) { return p.height; });
+/// @return the upright box of least area.
+UprightBox ObstacleBoxes::boxOf(const Point* first, const Point* last) {
   Extent along, across;
   float least = INFINITY, yaw = 0.0F;
   for (int k = 0; k < kDirections; ++k) {
@@ -240,6 +249,25 @@ void ObstacleBoxes::measure(const Point* first, const Point* last) {
   box.length = static_cast<double>(std::max(along.size(), across.size()));
   box.width = static_cast<double>(std::min(along.size(), across.size()));
   box.yaw = static_cast<double>(yaw) - (across.size() > along.size() ? 0.5 * M_PI : 0.0);
+  return box;
+}
+
+/// Walls that meet in a corner would be one box with half the room in it: what is as large is
+/// divided until it is not, in the middle of its length.
+void ObstacleBoxes::measure(Point* first, Point* last) {
+  UprightBox box = boxOf(first, last);
+  if (box.length > kLargeLength && box.width > kLargeWidth) {
+    const Eigen::Vector2f ahead(static_cast<float>(std::cos(box.yaw)),
+                                static_cast<float>(std::sin(box.yaw)));
+    const float middle = ahead.dot(box.centre.cast<float>());
+    Point* const second = std::partition(
+        first, last, [&](const Point& p) { return ahead.x() * p.x + ahead.y() * p.y < middle; });
+    for (const auto& [begin, end] : {std::make_pair(first, second), std::make_pair(second, last)}) {
+      if (areaOf(begin, end) >= kLeastArea) measure(begin, end);
+    }
+    return;
+  }
+  const Extent heights = extentOf(first, last, bins_, [](const Point& p) { return p.height; });
   box.bottom = heights.low < kFoot ? 0.0 : static_cast<double>(heights.low);
   box.top = static_cast<double>(heights.high);
   const Extent ranges =

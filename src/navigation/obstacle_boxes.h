@@ -60,8 +60,10 @@ class ObstacleBoxes {
   void link(std::uint32_t a, std::uint32_t b);
   std::uint32_t thingOf(std::uint32_t point);
   void sortPoints();
+  float areaOf(const Point* first, const Point* last) const;
   bool isThing(const Point* first, const Point* last, const NoiseModel& local_error);
-  void measure(const Point* first, const Point* last);
+  UprightBox boxOf(const Point* first, const Point* last);
+  void measure(Point* first, Point* last);
 
   Eigen::Matrix3f rotation_ = Eigen::Matrix3f::Identity();  ///< R_ground_optical
   float height_ = 0.0F;                                     ///< [m] of the camera

@@ -5,7 +5,9 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr double kMemory = 1.0;  // [s]
+// For which a thing that is not seen is known.
+constexpr double kMemory = 1.0;       // [s]
+constexpr std::uint32_t kImages = 3;  // [#] images, which may be more
 /// [m] How far the centre of one box may be from the other: what odometry and the box's own error
 /// make of it between two images, or a person who walks.
 constexpr double kGate = 0.2;
@@ -23,9 +25,6 @@ const std::vector<TrackedBox>& ObstacleTracks::follow(double stamp,
                                                       const Eigen::Isometry2d& T_world_ground) {
   if (stamp < stamp_) forget();
   stamp_ = stamp;
-  things_.erase(std::remove_if(things_.begin(), things_.end(),
-                               [&](const Thing& t) { return t.stamp < stamp - kMemory; }),
-                things_.end());
   in_world_ = boxes;
   const double turn = Eigen::Rotation2Dd(T_world_ground.linear()).smallestAngle();
   for (UprightBox& box : in_world_) {
@@ -33,22 +32,34 @@ const std::vector<TrackedBox>& ObstacleTracks::follow(double stamp,
     box.yaw += turn;
   }
   collectFits();
-  tracked_.clear();
-  for (const UprightBox& box : boxes) tracked_.push_back({0, 0, box});
-  taken_.assign(things_.size(), false);
+  const std::size_t known = things_.size();
+  thing_of_.assign(boxes.size(), known);
+  taken_.assign(known, false);
   for (const Fit& fit : fits_) {
-    TrackedBox& tracked = tracked_[fit.box];
-    if (tracked.id != 0 || taken_[fit.thing]) continue;
+    if (thing_of_[fit.box] < known || taken_[fit.thing]) continue;
     taken_[fit.thing] = true;
-    Thing& thing = things_[fit.thing];
-    thing = {thing.id, thing.images + 1, stamp, in_world_[fit.box]};
-    tracked.id = thing.id, tracked.images = thing.images;
+    thing_of_[fit.box] = fit.thing;
   }
-  for (std::size_t i = 0; i < tracked_.size(); ++i) {
-    if (tracked_[i].id != 0) continue;
-    things_.push_back({++last_id_, 1, stamp, in_world_[i]});
-    tracked_[i].id = last_id_, tracked_[i].images = 1;
+  for (std::size_t k = 0; k < known; ++k) {
+    things_[k].missed += taken_[k] ? 0 : 1;
+    things_[k].lost += taken_[k] ? 0 : 1;
   }
+  tracked_.clear();
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (thing_of_[i] == known) {
+      thing_of_[i] = things_.size();
+      things_.push_back({++last_id_, 0, 0, 0, stamp, {}});
+    }
+    Thing& thing = things_[thing_of_[i]];
+    thing = {thing.id, thing.images + 1, thing.missed, 0, stamp, in_world_[i]};
+    const bool told = thing.images >= least_ && thing.images > thing.missed;
+    if (told) tracked_.push_back({thing.id, thing.images, boxes[i]});
+  }
+  things_.erase(std::remove_if(things_.begin(), things_.end(),
+                               [&](const Thing& thing) {
+                                 return thing.lost >= kImages && thing.stamp < stamp - kMemory;
+                               }),
+                things_.end());
   return tracked_;
 }
 

@@ -44,7 +44,7 @@ visualization_msgs::Marker cubeOf(const std_msgs::Header& header, const TrackedB
 
 visualization_msgs::Marker textOf(const std_msgs::Header& header, const TrackedBox& tracked,
                                   const Eigen::Isometry3d& T_optical_ground) {
-  constexpr double kLetters = 0.07, kOver = 0.08;  // [m]
+  constexpr double kLetters = 0.05, kOver = 0.05;  // [m]
   visualization_msgs::Marker text = markerOf(header, tracked);
   text.ns = "obstacle_box_labels";
   text.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
@@ -56,8 +56,8 @@ visualization_msgs::Marker textOf(const std_msgs::Header& header, const TrackedB
   text.scale.z = kLetters;
   text.color.r = text.color.g = text.color.b = 1.0F;
   char words[64];
-  std::snprintf(words, sizeof(words), "%u: %.2f m away, %.2f m high", tracked.id,
-                tracked.box.distance, tracked.box.top);
+  std::snprintf(words, sizeof(words), "%u: %.1f m, %.2f m high", tracked.id, tracked.box.distance,
+                tracked.box.top);
   text.text = words;
   return text;
 }

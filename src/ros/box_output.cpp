@@ -14,7 +14,10 @@ constexpr std::uint32_t kQueue = 10;
 BoxOutput::BoxOutput(ros::NodeHandle& private_node, const NodeParameters& parameters,
                      RobotFrames& frames, RayTable& rays,
                      const std::function<void()>& listeners_changed)
-    : parameters_(parameters), frames_(frames), rays_(rays) {
+    : parameters_(parameters),
+      frames_(frames),
+      rays_(rays),
+      tracks_(static_cast<std::uint32_t>(parameters.box_images)) {
   const ros::SubscriberStatusCallback changed =
       [listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); };
   boxes_ =

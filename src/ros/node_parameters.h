@@ -39,6 +39,7 @@ struct NodeParameters {
   double map_memory = 10.0;           ///< [s] in which what the map knows fades to 1/e
   double map_obstacle_height = 0.05;  ///< [m] lowest obstacle that must not be in a free cell
   bool map_missing_ground = false;    ///< missing ground is occupied in the map
+  int box_images = 3;                 ///< [#] in which a thing has to be seen to be a box
   int stride = 1;                     ///< [px] clouds have every n-th point of every n-th row
   bool clouds_in_base_frame = false;  ///< instead of the optical frame
   bool coloured_clouds = false;       ///< XYZRGB with the registered picture's colours
@@ -91,6 +92,9 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
         p.map_obstacle_height);
   visit(Info{"map_missing_ground", "-", 0, 1, "missing ground is occupied in the map"},
         p.map_missing_ground);
+  visit(Info{"box_images", "#", 1, 100,
+             "images in which a thing has to be seen to be among the boxes"},
+        p.box_images);
   visit(Info{"stride", "px", 1, 64, "clouds have every n-th point of every n-th row"}, p.stride);
   visit(Info{"clouds_in_base_frame", "-", 0, 1,
              "clouds are in base_frame instead of the optical frame"},

@@ -1,5 +1,6 @@
 #include "ros/robot_frames.h"
 
+#include <ros/console.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 namespace dominant_plane_detection {
@@ -14,10 +15,45 @@ std::string plainFrame(const std::string& frame) {
 }
 
 void RobotFrames::listen() {
-  if (listener_) return;
+  if (transforms_) return;
   if (!buffer_) buffer_ = std::make_unique<tf2_ros::Buffer>();
-  // Without a thread of its own: callbacks come in the node's queue.
-  listener_ = std::make_unique<tf2_ros::TransformListener>(*buffer_, node_, false);
+  // Not tf2's listener: what went out from here comes back, and tf2 warns of each that is known.
+  const auto subscribe = [this](const char* topic, bool is_static) {
+    constexpr std::uint32_t kQueue = 100;
+    return node_.subscribe<tf2_msgs::TFMessage>(
+        topic, kQueue, [this, is_static](const tf2_msgs::TFMessage::ConstPtr& message) {
+          onTransforms(*message, is_static);
+        });
+  };
+  transforms_ = subscribe("/tf", false);
+  static_transforms_ = subscribe("/tf_static", true);
+}
+
+void RobotFrames::rest() {
+  transforms_.shutdown();
+  static_transforms_.shutdown();
+}
+
+void RobotFrames::onTransforms(const tf2_msgs::TFMessage& message, bool is_static) {
+  const ros::Time now = ros::Time::now();
+  if (now < last_message_) buffer_->clear();  // a recording begins again
+  last_message_ = now;
+  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+    try {
+      if (!isOwn(transform)) buffer_->setTransform(transform, "tf", is_static);
+    } catch (const tf2::TransformException& error) {
+      ROS_WARN_STREAM_THROTTLE(5.0, "Dropped a transform from "
+                                        << transform.header.frame_id << " to "
+                                        << transform.child_frame_id << ": " << error.what());
+    }
+  }
+}
+
+/// @return whether it went out from here, and is known.
+bool RobotFrames::isOwn(const geometry_msgs::TransformStamped& transform) const {
+  const auto sent = sent_.find(plainFrame(transform.child_frame_id));
+  return sent != sent_.end() && transform.header.frame_id == sent->second.header.frame_id &&
+         transform.header.stamp <= sent->second.header.stamp;
 }
 
 RobotFrames::Pose RobotFrames::pose(const std::string& target, const std::string& source,
@@ -70,6 +106,7 @@ void RobotFrames::broadcast(const std::string& parent, const std::string& child,
   message.header.frame_id = plainFrame(parent);
   message.child_frame_id = plainFrame(child);
   broadcaster_->sendTransform(message);
+  sent_[message.child_frame_id] = message;
   // Known here at once, for what else is made of this image.
   if (buffer_) buffer_->setTransform(message, "dominant_plane_detection", false);
 }

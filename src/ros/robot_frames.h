@@ -2,11 +2,12 @@
 
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/node_handle.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <Eigen/Geometry>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,7 +33,7 @@ class RobotFrames {
   /// Subscribes transforms; else that is done with the first call that needs them.
   void listen();
   /// Ends that; what is known stays.
-  void rest() { listener_.reset(); }
+  void rest();
   Pose pose(const std::string& target, const std::string& source, const ros::Time& stamp);
   /// @return empty where a frame has none, or is not known.
   std::string parentOf(const std::string& frame);
@@ -42,10 +43,16 @@ class RobotFrames {
                  const Eigen::Isometry3d& transform);
 
  private:
+  void onTransforms(const tf2_msgs::TFMessage& message, bool is_static);
+  bool isOwn(const geometry_msgs::TransformStamped& transform) const;
+
   ros::NodeHandle node_;
   std::unique_ptr<tf2_ros::Buffer> buffer_;
-  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  ros::Subscriber transforms_, static_transforms_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> broadcaster_;
+  /// The last transforms that went out, by child.
+  std::map<std::string, geometry_msgs::TransformStamped> sent_;
+  ros::Time last_message_;  ///< when transforms came
 };
 
 }  // namespace dominant_plane_detection

@@ -126,6 +126,20 @@ TEST_F(Boxes, WithoutAPlaneThereAreNone) {
   EXPECT_TRUE(find().empty());
 }
 
+/// Two walls in a corner: no box has the room between them in it.
+TEST_F(Boxes, ACornerIsMoreThanOne) {
+  sight_.addBox({2.6, -1.2, 0.0}, {2.7, 0.8, 1.0});
+  sight_.addBox({1.0, 0.7, 0.0}, {2.7, 0.8, 1.0});
+  const auto& boxes = find();
+  ASSERT_GE(boxes.size(), 2U);
+  for (const UprightBox& box : boxes) {
+    const Eigen::Vector2d inside =
+        Eigen::Rotation2Dd(-box.yaw) * (Eigen::Vector2d(1.6, -0.2) - box.centre);
+    EXPECT_TRUE(std::abs(inside.x()) > 0.5 * box.length || std::abs(inside.y()) > 0.5 * box.width);
+    EXPECT_TRUE(box.length <= 1.2 || box.width <= 0.4);
+  }
+}
+
 TEST_F(Boxes, ASpeckIsNone) {
   sight_.addBox({1.5, -0.01, 0.0}, {1.52, 0.01, 0.06});
   EXPECT_TRUE(find().empty());

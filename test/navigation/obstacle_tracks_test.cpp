@@ -28,7 +28,7 @@ Eigen::Isometry2d pose(double x, double y, double yaw) {
 /// A camera that turns and drives, fast: things are where they were.
 TEST(ObstacleTracks, OdometryKeepsIdentities) {
   const std::vector<Eigen::Vector2d> things = {{2.0, 0.5}, {2.5, -0.4}, {3.0, 0.1}};
-  ObstacleTracks tracks;
+  ObstacleTracks tracks(1);
   for (int i = 0; i < 20; ++i) {
     const Eigen::Isometry2d camera = pose(0.1 * i, 0.02 * i, 0.15 * i);
     std::vector<UprightBox> boxes;
@@ -46,7 +46,7 @@ TEST(ObstacleTracks, OdometryKeepsIdentities) {
 }
 
 TEST(ObstacleTracks, WithoutOdometryWhatMovesLittleIsTheSame) {
-  ObstacleTracks tracks;
+  ObstacleTracks tracks(1);
   const Eigen::Isometry2d none = Eigen::Isometry2d::Identity();
   EXPECT_EQ(tracks.follow(0.0, {boxAt({2.0, 0.0})}, none)[0].id, 1U);
   EXPECT_EQ(tracks.follow(0.1, {boxAt({1.9, 0.1})}, none)[0].id, 1U);
@@ -55,7 +55,7 @@ TEST(ObstacleTracks, WithoutOdometryWhatMovesLittleIsTheSame) {
 
 /// Each box is the thing that it fits best, and one of them only.
 TEST(ObstacleTracks, TheNearestIsTheSame) {
-  ObstacleTracks tracks;
+  ObstacleTracks tracks(1);
   const Eigen::Isometry2d none = Eigen::Isometry2d::Identity();
   tracks.follow(0.0, {boxAt({2.0, 0.0}), boxAt({2.0, 0.25})}, none);
   const auto& tracked =
@@ -67,7 +67,7 @@ TEST(ObstacleTracks, TheNearestIsTheSame) {
 
 /// Of a wall each image shows another part.
 TEST(ObstacleTracks, AWallMayMoveAlongItself) {
-  ObstacleTracks tracks;
+  ObstacleTracks tracks(1);
   const Eigen::Isometry2d none = Eigen::Isometry2d::Identity();
   tracks.follow(0.0, {boxAt({3.0, 0.0}, 2.0, 0.5 * M_PI)}, none);
   EXPECT_EQ(tracks.follow(0.1, {boxAt({3.0, 0.6}, 1.2, 0.5 * M_PI)}, none)[0].id, 1U);
@@ -75,17 +75,46 @@ TEST(ObstacleTracks, AWallMayMoveAlongItself) {
 }
 
 TEST(ObstacleTracks, WhatIsNotSeenForASecondIsForgotten) {
-  ObstacleTracks tracks;
+  ObstacleTracks tracks(1);
   const Eigen::Isometry2d none = Eigen::Isometry2d::Identity();
   tracks.follow(0.0, {boxAt({2.0, 0.0})}, none);
   tracks.follow(0.5, {}, none);
   EXPECT_EQ(tracks.follow(0.9, {boxAt({2.0, 0.0})}, none)[0].id, 1U);
-  tracks.follow(1.5, {}, none);
-  EXPECT_EQ(tracks.follow(2.0, {boxAt({2.0, 0.0})}, none)[0].id, 2U);
+  for (const double stamp : {1.5, 1.8, 2.0}) tracks.follow(stamp, {}, none);
+  EXPECT_EQ(tracks.follow(2.1, {boxAt({2.0, 0.0})}, none)[0].id, 2U);
   // A recording that begins again has other things.
   EXPECT_EQ(tracks.follow(0.0, {boxAt({2.0, 0.0})}, none)[0].id, 3U);
   tracks.forget();
   EXPECT_EQ(tracks.follow(0.1, {boxAt({2.0, 0.0})}, none)[0].id, 4U);
+}
+
+/// Wrong readings are elsewhere in each image.
+TEST(ObstacleTracks, AThingIsToldOnceItWasSeenOften) {
+  ObstacleTracks tracks(3);
+  const Eigen::Isometry2d none = Eigen::Isometry2d::Identity();
+  const UprightBox thing = boxAt({2.0, 0.0});
+  EXPECT_TRUE(tracks.follow(0.0, {thing}, none).empty());
+  EXPECT_TRUE(tracks.follow(0.1, {boxAt({1.0, 0.5}), thing}, none).empty());
+  const auto& tracked = tracks.follow(0.2, {boxAt({1.5, 1.0}), thing}, none);
+  ASSERT_EQ(tracked.size(), 1U);
+  EXPECT_EQ(tracked[0].id, 1U);
+  EXPECT_EQ(tracked[0].images, 3U);
+  EXPECT_EQ(tracked[0].box.centre, thing.centre);
+  // What is seen in every third image only is not told any more.
+  for (int i = 3; i < 30; ++i) {
+    tracks.follow(0.1 * i, i % 3 == 0 ? std::vector<UprightBox>{thing} : std::vector<UprightBox>(),
+                  none);
+  }
+  EXPECT_TRUE(tracks.follow(3.0, {thing}, none).empty());
+}
+
+/// Images may be a long time apart.
+TEST(ObstacleTracks, SlowCamerasFollowThingsToo) {
+  ObstacleTracks tracks(3);
+  const Eigen::Isometry2d none = Eigen::Isometry2d::Identity();
+  tracks.follow(0.0, {boxAt({2.0, 0.0})}, none);
+  tracks.follow(2.0, {boxAt({2.0, 0.0})}, none);
+  ASSERT_EQ(tracks.follow(4.0, {boxAt({2.0, 0.0})}, none).size(), 1U);
 }
 
 }  // namespace
