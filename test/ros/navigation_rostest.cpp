@@ -51,6 +51,17 @@ class Navigation : public Robot {
  protected:
   Navigation() { sendMount(mount()); }
 
+  /// Puts the robot somewhere, and waits until that is known here.
+  bool drive(const Eigen::Isometry3d& pose) {
+    sendFrame("odom", "base_link", pose);
+    return spinUntil([&] {
+      if (!buffer_.canTransform("odom", "base_link", ros::Time(0))) return false;
+      const Eigen::Isometry3d known =
+          tf2::transformToEigen(buffer_.lookupTransform("odom", "base_link", ros::Time(0)));
+      return known.isApprox(pose, 1e-6);
+    });
+  }
+
   /// Sends an image until the node has answered with a map of it.
   template <typename Message>
   bool sendForLast(const Listener<DominantPlane>& planes, const Listener<Message>& results,
@@ -105,7 +116,7 @@ TEST_F(Navigation, WithOdometryTheMapKeepsWhatWasSeen) {
   EXPECT_EQ(maps.size(), 0U);
 
   const Eigen::Isometry3d begin = odometry(10.0, -3.0, 0.7);
-  sendFrame("odom", "base_link", begin);
+  ASSERT_TRUE(drive(begin));
   ASSERT_TRUE(sendForLast(planes, maps, imageOf(boxSight())));
   EXPECT_EQ(maps.last()->header.frame_id, "odom");
   EXPECT_EQ(maps.last()->info.width, 120U);
@@ -118,12 +129,7 @@ TEST_F(Navigation, WithOdometryTheMapKeepsWhatWasSeen) {
 
   // It drives past the box: both it and the floor that was seen are behind, and where they were.
   const Eigen::Isometry3d end = odometry(11.5, -2.0, 2.2);
-  sendFrame("odom", "base_link", end);
-  ASSERT_TRUE(spinUntil([&] {
-    return buffer_.canTransform("odom", "base_link", ros::Time(0)) &&
-           buffer_.lookupTransform("odom", "base_link", ros::Time(0)).transform.translation.x >
-               11.0;
-  }));
+  ASSERT_TRUE(drive(end));
   ASSERT_TRUE(sendUntil(planes, imageOf(floorSight()), [&](const DominantPlane& plane) {
     return maps.last()->header.stamp == plane.header.stamp &&
            std::abs(maps.last()->info.origin.position.x + 3.0 - inOdom(end, 0.0, 0.0).x()) < 0.06;
@@ -152,7 +158,7 @@ TEST_F(Navigation, AMapThatIsTooLargeIsRefused) {
 }
 
 TEST_F(Navigation, ThingsAreBoxesThatKeepTheirNumbers) {
-  sendFrame("odom", "base_link", odometry(0.0, 0.0, 0.0));
+  ASSERT_TRUE(drive(odometry(0.0, 0.0, 0.0)));
   Listener<DominantPlane> planes(node_, "/in_odom/plane");
   Listener<ObstacleBoxArray> boxes(node_, "/in_odom/obstacle_boxes");
   Listener<visualization_msgs::MarkerArray> markers(node_, "/in_odom/obstacle_box_markers");
@@ -186,10 +192,7 @@ TEST_F(Navigation, ThingsAreBoxesThatKeepTheirNumbers) {
 
   // Seen from elsewhere it is the same thing: the robot drove 0.4 m and turned by 20 degrees.
   const Eigen::Isometry3d moved = odometry(0.4, 0.1, 20.0 * kDegree);
-  sendFrame("odom", "base_link", moved);
-  ASSERT_TRUE(spinUntil([&] {
-    return buffer_.lookupTransform("odom", "base_link", ros::Time(0)).transform.translation.x > 0.3;
-  }));
+  ASSERT_TRUE(drive(moved));
   GroundSight sight = floorSight();
   const Eigen::Vector3d in_base(0.2, 0.0, 0.0);
   const Eigen::Vector3d centre = moved.inverse() * (0.5 * (kBoxLow + kBoxHigh) + in_base) - in_base;
@@ -207,15 +210,11 @@ TEST_F(Navigation, ThingsAreBoxesThatKeepTheirNumbers) {
 /// The recipe of docs/robot.md: what it says is what costmap_2d needs.
 TEST_F(Navigation, TheRecipeForCostmapsMarksObstaclesAndClearsGround) {
   const Eigen::Isometry3d begin = odometry(2.0, 1.0, 0.5);
-  sendFrame("odom", "base_link", begin);
+  ASSERT_TRUE(drive(begin));
   CostmapContract costmap(node_, buffer_, "odom", "/in_odom");
   Listener<DominantPlane> planes(node_, "/in_odom/plane");
   ASSERT_TRUE(ready(planes));
   ASSERT_TRUE(spinUntil([&] { return costmap.connected(); }));
-  ASSERT_TRUE(spinUntil([&] {
-    return buffer_.canTransform("odom", "base_link", ros::Time(0)) &&
-           buffer_.lookupTransform("odom", "base_link", ros::Time(0)).transform.translation.x > 1.9;
-  }));
   const auto at = [](const Eigen::Isometry3d& base, double x, double y) {
     return Eigen::Vector3d(base * Eigen::Vector3d(x + 0.2, y, 0.0));
   };
@@ -232,20 +231,14 @@ TEST_F(Navigation, TheRecipeForCostmapsMarksObstaclesAndClearsGround) {
 
   // Nearer than the camera sees, the box stays, though rays to the floor pass over it.
   const Eigen::Isometry3d near = begin * odometry(0.75, 0.0, 0.0);
-  sendFrame("odom", "base_link", near);
-  ASSERT_TRUE(spinUntil([&] {
-    return buffer_.lookupTransform("odom", "base_link", ros::Time(0)).transform.translation.x > 2.3;
-  }));
+  ASSERT_TRUE(drive(near));
   ASSERT_TRUE(sendUntil(planes, imageOf(floorSight()),
                         [&](const DominantPlane&) { return costmap.update(stamp_); }));
   EXPECT_EQ(costmap.at(at(begin, 1.02, 0.0)), CostmapContract::kLethal);
   EXPECT_EQ(costmap.at(at(near, 1.9, 0.0)), CostmapContract::kFree);
 
   // And where it is seen to have gone it is cleared.
-  sendFrame("odom", "base_link", begin);
-  ASSERT_TRUE(spinUntil([&] {
-    return buffer_.lookupTransform("odom", "base_link", ros::Time(0)).transform.translation.x < 2.1;
-  }));
+  ASSERT_TRUE(drive(begin));
   ASSERT_TRUE(sendUntil(planes, imageOf(floorSight()),
                         [&](const DominantPlane&) { return costmap.update(stamp_); }));
   EXPECT_EQ(costmap.lethalCells(), 0);
