@@ -45,8 +45,9 @@ void takeProfile(const ros::NodeHandle& node) {
 void PlaneDetectionNodelet::onTimer() {
   // Somebody may have come during the start.
   followListeners();
-  diagnostics_->report({inputs_->subscribed(), inputs_->counts(), inputs_->problem(),
-                        subscription_error_, prior_->status()});
+  diagnostics_->report({inputs_->subscribed(), inputs_->counts(), inputs_->topics(),
+                        inputs_->problem(), subscription_error_, prior_->status(),
+                        trials_.cause()});
 }
 
 void PlaneDetectionNodelet::start() {
@@ -55,6 +56,7 @@ void PlaneDetectionNodelet::start() {
   takeProfile(private_node);
   detector_ = DominantPlaneDetector(
       loadParameters<Parameters, PlaneDetectionConfig>(private_node, nodeletParameters()));
+  trials_ = NoPlaneTrials(detector_.parameters());
   correction_ = readCorrection(private_node);
   learner_ = std::make_unique<CorrectionLearner>(private_node, detector_.parameters().noise,
                                                  correction_.has_value());
@@ -105,6 +107,7 @@ void PlaneDetectionNodelet::trySubscriptions() {
   } else if (!wanted && inputs_->subscribed()) {
     inputs_->unsubscribe();
     prior_->unsubscribe();
+    trials_ = NoPlaneTrials(detector_.parameters());
   }
   overlay_->followListeners();
   pictures_->follow(overlay_->anybodyListens() || clouds_->wantPictures());
@@ -141,6 +144,7 @@ void PlaneDetectionNodelet::detect(const DetectionInputs::Frame& frame) {
   scan_->publish(frame, detection, detector_.parameters().range_max);
   clouds_->publish(frame, detection);  // after the tf that they may be in
   overlay_->publish(frame, detection);
+  trials_.add(ros::SteadyTime::now().toSec(), frame.depth, frame.camera, prior, detection);
 }
 
 void PlaneDetectionNodelet::onReconfigure(PlaneDetectionConfig& config) {
@@ -148,6 +152,7 @@ void PlaneDetectionNodelet::onReconfigure(PlaneDetectionConfig& config) {
   const std::string errors = joined(findErrors(parameters));
   if (errors.empty()) {
     detector_ = DominantPlaneDetector(parameters);
+    trials_ = NoPlaneTrials(parameters);
     return;
   }
   NODELET_ERROR_STREAM("Refused parameters, the old ones stay: " << errors);

@@ -13,24 +13,16 @@ std::string plainFrame(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
-void RobotFrames::listen() {
-  if (listener_) return;
-  if (!buffer_) buffer_ = std::make_unique<tf2_ros::Buffer>();
-  // Without a thread of its own: callbacks come in the node's queue.
-  listener_ = std::make_unique<tf2_ros::TransformListener>(*buffer_, node_, false);
-}
-
-RobotFrames::Pose RobotFrames::pose(const std::string& target, const std::string& source,
-                                    const ros::Time& stamp) {
+Pose findPose(const tf2::BufferCore& buffer, const std::string& target, const std::string& source,
+              const ros::Time& stamp) {
   Pose pose;
   if (plainFrame(target) == plainFrame(source)) {
     pose.transform = Eigen::Isometry3d::Identity();
     pose.exact = true;
     return pose;
   }
-  listen();
   const auto look = [&](const ros::Time& time) {
-    return buffer_->lookupTransform(plainFrame(target), plainFrame(source), time);
+    return buffer.lookupTransform(plainFrame(target), plainFrame(source), time);
   };
   const std::string problem = "No tf from " + target + " to " + source;
   try {
@@ -54,6 +46,20 @@ RobotFrames::Pose RobotFrames::pose(const std::string& target, const std::string
     // It has said why above.
   }
   return pose;
+}
+
+void RobotFrames::listen() {
+  if (listener_) return;
+  if (!buffer_) buffer_ = std::make_unique<tf2_ros::Buffer>();
+  // Without a thread of its own: callbacks come in the node's queue.
+  listener_ = std::make_unique<tf2_ros::TransformListener>(*buffer_, node_, false);
+}
+
+Pose RobotFrames::pose(const std::string& target, const std::string& source,
+                       const ros::Time& stamp) {
+  if (plainFrame(target) != plainFrame(source)) listen();
+  static const tf2::BufferCore kEmpty;
+  return findPose(buffer_ ? *buffer_ : kEmpty, target, source, stamp);
 }
 
 std::string RobotFrames::parentOf(const std::string& frame) {

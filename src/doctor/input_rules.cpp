@@ -1,0 +1,221 @@
+#include "doctor/input_rules.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace dominant_plane_detection {
+namespace {
+
+/// [s] by which images of this computer's clock may come late: a robot that acts on older ones acts
+/// on what is gone, and a busy computer is not so late.
+constexpr double kStale = 2.0;
+/// [s] by which they may be early: clocks that are set over the network agree to a hundredth, and a
+/// replay at ten times the speed delivers its clock up to a few tenths late.
+constexpr double kEarly = 0.5;
+
+constexpr const char* kCloudType = "sensor_msgs/PointCloud2";
+
+std::string number(double value, int digits) {
+  char text[48];
+  std::snprintf(text, sizeof(text), "%.*f", digits, value);
+  return text;
+}
+
+/// The remap that gives a detection another topic.
+std::string remap(const InputFacts& input, const std::string& to) {
+  const bool points = input.from_points;
+  if (!input.live) return "--topic " + to;
+  return std::string(points ? "points" : "depth/image_raw") + ":=" + to +
+         (points ? " (argument points of detection.launch)"
+                 : " (argument depth of detection.launch)");
+}
+
+/// What to do about a topic that is the wrong one.
+std::string choose(const InputFacts& input) {
+  const auto& others = input.depth.others;
+  if (others.empty()) return "";
+  return " Topics of this type: " + listed(others) +
+         ". Give one of them: " + remap(input, others.front()) + ".";
+}
+
+std::string size(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+bool calibrated(const CameraInfoFacts& camera) { return camera.fx > 0.0 && camera.fy > 0.0; }
+
+bool sameSize(const InputFacts& input) {
+  return input.camera->width == input.width && input.camera->height == input.height;
+}
+
+}  // namespace
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+std::optional<Finding> findNoClock(const ClockFacts& clock) {
+  if (!clock.use_sim_time || clock.ticks) return std::nullopt;
+  return Finding{Code::kNoClock,
+                 "The parameter /use_sim_time is true, but no time comes on /clock, so that time "
+                 "stands still for every node. Either play the bag with rosbag play --clock (or "
+                 "start the simulator), or set it back: rosparam set /use_sim_time false, and "
+                 "start the nodes again."};
+}
+
+std::optional<Finding> findSwappedTopics(const InputFacts& input) {
+  const TopicFacts& depth = input.depth;
+  if (depth.type.empty() || depth.type == depth.expected_type) return std::nullopt;
+  std::string text = depth.name + " has messages of type " + depth.type + ", but " +
+                     depth.expected_type + " is expected: ";
+  if (depth.type == kCloudType) {
+    text +=
+        "it is a cloud, where a depth image should be. Set the parameter input to points and "
+        "remap points:=" +
+        depth.name + ", or take a depth image.";
+  } else {
+    text +=
+        "the parameter input is points, which wants an organised cloud. Set input to depth and "
+        "remap depth/image_raw:=" +
+        depth.name + ", or take a cloud.";
+  }
+  return Finding{Code::kTopicsSwapped, text + choose(input)};
+}
+
+std::optional<Finding> findNoImages(const InputFacts& input) {
+  const TopicFacts& depth = input.depth;
+  if (depth.messages > 0 || findSwappedTopics(input)) return std::nullopt;
+  const std::string what = input.from_points ? "cloud" : "depth image";
+  if (!input.live) {
+    return Finding{Code::kNoImages,
+                   "There is no " + what + " topic" + (depth.name.empty() ? "" : " " + depth.name) +
+                       " of type " + depth.expected_type + " in the recording. Topics in it: " +
+                       listed(depth.others) + ". Record the camera's depth image and its " +
+                       "camera_info (record.launch does)" +
+                       (input.from_points ? "." : ", or, for clouds, give --set input=points.")};
+  }
+  if (depth.type.empty()) {
+    return Finding{Code::kNoImages,
+                   "Nothing comes on " + depth.name +
+                       ", which nobody publishes: the camera's driver does not "
+                       "run, or has another name. Topics of this type: " +
+                       listed(depth.others) + "." +
+                       (depth.others.empty() ? " Start the driver (camera.launch)."
+                                             : " Start the driver, or remap " +
+                                                   remap(input, depth.others.front()) + ".")};
+  }
+  return Finding{Code::kNoImages,
+                 "Nothing comes on " + depth.name +
+                     ", although it is published: the camera is not plugged in, does not stream, "
+                     "or its bag has ended; its driver's line in /diagnostics says more. Topics of "
+                     "this type: " +
+                     listed(depth.others) + "."};
+}
+
+std::optional<Finding> findWrongEncoding(const InputFacts& input) {
+  if (input.encoding_is_depth) return std::nullopt;
+  return Finding{Code::kEncoding,
+                 "Images of " + input.depth.name + " cannot be used: " + input.refusal +
+                     ". It is no depth in millimetres or metres, but a picture, a disparity, or "
+                     "depth as some viewer wants it. Give the depth image itself, such as "
+                     "depth/image_raw of the camera." +
+                     choose(input)};
+}
+
+std::optional<Finding> findNoCameraInfo(const InputFacts& input) {
+  const TopicFacts& info = input.info;
+  if (input.depth.messages == 0 || info.name.empty() || info.messages > 0) return std::nullopt;
+  std::string text =
+      "Images come on " + input.depth.name + ", but no camera_info for them on " + info.name +
+      (info.type.empty() ? ", which nobody publishes" : "") +
+      ": without it nobody knows where a pixel looks. Topics of this type: " + listed(info.others) +
+      ". ";
+  text += input.live ? "Have the driver publish it beside the image, or remap depth/camera_info:="
+                     : "Record it beside the image, or give --camera ";
+  text += !input.live ? "FX,FY,CX,CY." : info.others.empty() ? "TOPIC." : info.others.front() + ".";
+  return Finding{Code::kNoCameraInfo, text};
+}
+
+std::optional<Finding> findUncalibrated(const InputFacts& input) {
+  if (!input.camera || calibrated(*input.camera)) return std::nullopt;
+  const CameraInfoFacts& camera = *input.camera;
+  return Finding{Code::kUncalibrated,
+                 "The camera_info on " + input.info.name + " has the focal lengths " +
+                     number(camera.fx, 1) + " and " + number(camera.fy, 1) + " in " +
+                     camera.matrix +
+                     ": the driver has no calibration. Expected a calibrated "
+                     "camera_info. Give the driver one (depth_camera_info_url of camera.launch), " +
+                     (camera.matrix[0] == 'P' ? "or set rectified to false, if K is filled."
+                                              : "made by camera_calibration.")};
+}
+
+std::optional<Finding> findCameraInfoSize(const InputFacts& input) {
+  if (!input.camera || !calibrated(*input.camera) || sameSize(input)) return std::nullopt;
+  return Finding{Code::kCameraInfoSize,
+                 "Images of " + input.depth.name + " have " + size(input.width, input.height) +
+                     " pixels, but expected a camera_info of the image's size, and that on " +
+                     input.info.name + " is for " +
+                     size(input.camera->width, input.camera->height) +
+                     ": the calibration is of another resolution, or of another camera. Give the "
+                     "driver a calibration of this size, or set binning or region of interest in "
+                     "camera_info (depth_camera_info_url, depth_mode of camera.launch)."};
+}
+
+std::optional<Finding> findStampsApart(const InputFacts& input) {
+  if (!input.info_offset || !input.camera) return std::nullopt;
+  const bool other_frame = input.camera->frame_id != input.frame_id;
+  std::string text = "No camera_info on " + input.info.name + " has the stamp of an image on " +
+                     input.depth.name + ": the nearest is " + number(1e3 * *input.info_offset, 1) +
+                     " ms off. ";
+  text += other_frame
+              ? "Its frame is '" + input.camera->frame_id + "' and not '" + input.frame_id +
+                    "' either, so that it is not used at all. "
+              : "The latest one of the same frame and size is used instead, a second late. ";
+  return Finding{Code::kStampsApart,
+                 text +
+                     "Image and camera_info come from two programs, or the driver stamps them "
+                     "apart. Have one driver publish both with the same stamp (header.stamp)" +
+                     (other_frame ? " and frame_id." : ".")};
+}
+
+std::optional<Finding> findStampsOffClock(const InputFacts& input) {
+  if (!input.live || !input.age) return std::nullopt;
+  const double age = *input.age;
+  if (-kEarly <= age && age <= kStale) return std::nullopt;
+  const std::string what = "Images of " + input.depth.name + " come " + number(std::abs(age), 1) +
+                           " s " + (age > 0.0 ? "after" : "before") + " their stamps: ";
+  const bool replay = age > 3600.0;
+  return Finding{Code::kStampsOffClock,
+                 what + (replay ? "they are of a recording that plays without its clock. Play it "
+                                  "with rosbag play --clock, with /use_sim_time true "
+                                  "(replay.launch does)."
+                                : "the camera's computer has another time than this one, or "
+                                  "stamps come from the camera's own clock, so that tf and gravity "
+                                  "do not fit. Set the clocks by NTP or chrony, or correct the "
+                                  "driver's time_offset.")};
+}
+
+Findings examineInput(const InputFacts& input) {
+  Findings findings;
+  for (const auto rule : {findSwappedTopics, findNoImages, findWrongEncoding, findNoCameraInfo,
+                          findUncalibrated, findCameraInfoSize}) {
+    if (const auto finding = rule(input)) {
+      findings.push_back(*finding);
+      break;
+    }
+  }
+  if (findings.empty() && !input.refusal.empty()) {
+    findings.push_back({Code::kUnusableImages, "Images of " + input.depth.name +
+                                                   " cannot be used: " + input.refusal +
+                                                   ". Correct what publishes them."});
+  }
+  if (findings.empty()) {
+    if (const auto finding = findStampsApart(input)) findings.push_back(*finding);
+  }
+  if (const auto finding = findStampsOffClock(input)) findings.push_back(*finding);
+  return findings;
+}
+
+}  // namespace dominant_plane_detection

@@ -1,0 +1,70 @@
+#include "mount_evidence.h"
+
+#include <algorithm>
+
+#include "ros/robot_frames.h"
+
+namespace dominant_plane_detection {
+namespace {
+
+/// @return 0 of nothing.
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+bool MountEvidence::wanted() const {
+  return !parameters_.base_frame.empty() && parameters_.publish_tf != TfOutput::kBase;
+}
+
+Prior MountEvidence::priorOf(const std_msgs::Header& header) {
+  Prior prior;
+  camera_.reset();
+  ground_ = MountedGround{};
+  if (!wanted()) return prior;
+  ++images_;
+  frame_id_ = header.frame_id;
+  const Pose pose = findPose(frames_, parameters_.base_frame, header.frame_id, header.stamp);
+  if (!pose.transform) {
+    ++missing_;
+    problem_ = pose.problem;
+    return prior;
+  }
+  ground_ = mountedGround(*pose.transform);
+  if (pose.exact) camera_ = pose.transform;
+  prior.expected_up = ground_.up.direction;
+  prior.up_error = ground_.up.error;
+  prior.up_source = UpSource::kTf;
+  prior.expected_height = ground_.height;
+  return prior;
+}
+
+void MountEvidence::add(const std_msgs::Header& header, const Detection& detection) {
+  if (!wanted()) return;
+  watch_.add(header.stamp.toSec(), detection, camera_, ground_.height);
+  if (!watch_.text().empty()) {
+    moved_ = watch_.text();
+    ++off_;
+  }
+  if (!detection.found() || !ground_.height) return;
+  heights_.push_back(detection.distance);
+  tf_heights_.push_back(ground_.height->height);
+}
+
+RobotFacts MountEvidence::facts() const {
+  RobotFacts facts;
+  facts.base_frame = wanted() ? parameters_.base_frame : "";
+  facts.frame_id = frame_id_;
+  if (2 * missing_ > images_) facts.tf_problem = problem_;
+  // A drive over a ramp or another level is no mount that moved: it lasts.
+  if (2 * off_ > heights_.size()) facts.mount = moved_;
+  facts.height = median(heights_);
+  facts.tf_height = median(tf_heights_);
+  return facts;
+}
+
+}  // namespace dominant_plane_detection
