@@ -11,6 +11,9 @@ constexpr std::size_t kFewest = 2;  // [#] images without a plane
 /// Planes in more than one of so many images: then there is no lasting cause.
 constexpr std::size_t kNearlyNone = 10;
 
+/// @return up of a camera that is turned by half a turn about its optical axis.
+Eigen::Vector3d rolled(const Eigen::Vector3d& up) { return {-up.x(), -up.y(), up.z()}; }
+
 const char* whereUpIsFrom(UpSource source) {
   switch (source) {
     case UpSource::kTf:
@@ -29,7 +32,7 @@ const char* whereUpIsFrom(UpSource source) {
 
 ImageTrials::ImageTrials(const Parameters& parameters) : parameters_(parameters) {
   Trial upside_down;
-  upside_down.negated_up = true;
+  upside_down.upside_down = true;
   trials_.push_back(upside_down);
   for (const double range : kRanges) {
     if (!(range > parameters.range_max)) continue;
@@ -45,9 +48,9 @@ bool ImageTrials::heals(const Trial& trial, const DepthView& depth, const Camera
   Prior changed = prior;
   changed.predicted_plane.reset();
   if (trial.range_max > 0.0) parameters.range_max = trial.range_max;
-  if (trial.negated_up) {
-    parameters.expected_up = -parameters.expected_up;
-    if (changed.expected_up) changed.expected_up = -*changed.expected_up;
+  if (trial.upside_down) {
+    parameters.expected_up = rolled(parameters.expected_up);
+    if (changed.expected_up) changed.expected_up = rolled(*changed.expected_up);
   }
   return DominantPlaneDetector(parameters).detect(depth, camera, changed).found();
 }
@@ -69,9 +72,9 @@ Finding ImageTrials::describe(const Trial& trial) const {
   const char* const without = "No plane in %zu of %zu images (%s)";
   char begin[400];
   std::snprintf(begin, sizeof(begin), without, failed_, images_, reason_.c_str());
-  if (trial.negated_up) {
+  if (trial.upside_down) {
     std::snprintf(text, sizeof(text),
-                  "%s, but with up the other way round %zu of these have one: %s.", begin,
+                  "%s, but with the camera upside down %zu of these have one: %s.", begin,
                   trial.healed, whereUpIsFrom(up_source_));
     return {Code::kUpsideDown, text};
   }

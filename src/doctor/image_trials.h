@@ -29,7 +29,7 @@ class ImageTrials {
  private:
   /// Another value of one thing.
   struct Trial {
-    bool negated_up = false;
+    bool upside_down = false;
     double range_max = 0.0;  ///< [m] 0: as it is
     std::size_t healed = 0;  ///< [#] images with a plane only by it
   };

@@ -21,7 +21,7 @@ constexpr const char* kCloud = "sensor_msgs/PointCloud2";
 constexpr std::size_t kSample = 60;  // [#] images that are looked at, spread over all
 /// With tf those of the first ten seconds: a mount is judged over seconds, and a ramp is told from
 /// it after five.
-constexpr double kMountTime = 10.0;       // [s]
+constexpr double kMountTime = 10.0;        // [s]
 constexpr std::size_t kMountImages = 300;  // [#]
 
 bool contains(const std::string& text, const char* part) {
@@ -108,7 +108,8 @@ class BagExamination {
   }
 
   void readFrames() {
-    rosbag::View transforms(bag_, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}));
+    rosbag::View transforms(bag_,
+                            rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}));
     for (const rosbag::MessageInstance& message : transforms) {
       const auto tf = message.instantiate<tf2_msgs::TFMessage>();
       if (!tf) continue;
@@ -141,8 +142,7 @@ class BagExamination {
     }
     const auto image = message.instantiate<sensor_msgs::Image>();
     const auto info = cameraOf(image->header.stamp);
-    return add(image->header,
-               [&](const Prior& prior) { return images_.add(*image, info, prior); });
+    return add(image->header, [&](const Prior& prior) { return images_.add(*image, info, prior); });
   }
 
   template <typename Study>
@@ -190,10 +190,10 @@ class BagExamination {
   tf2::BufferCore frames_;
   ImageEvidence images_;
   MountEvidence mount_;
-  ros::Time begin_;          ///< stamp of the first image
-  std::size_t looked_ = 0;   ///< [#] images
-  std::size_t exact_ = 0;    ///< [#] of them with a camera_info of their stamp
-  double offset_ = 0.0;      ///< [s] from the last image to the nearest camera_info
+  ros::Time begin_;         ///< stamp of the first image
+  std::size_t looked_ = 0;  ///< [#] images
+  std::size_t exact_ = 0;   ///< [#] of them with a camera_info of their stamp
+  double offset_ = 0.0;     ///< [s] from the last image to the nearest camera_info
 };
 
 }  // namespace

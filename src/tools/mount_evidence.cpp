@@ -24,7 +24,7 @@ bool MountEvidence::wanted() const {
 Prior MountEvidence::priorOf(const std_msgs::Header& header) {
   Prior prior;
   camera_.reset();
-  ground_ = MountedGround{};
+  height_.reset();
   if (!wanted()) return prior;
   ++images_;
   frame_id_ = header.frame_id;
@@ -34,25 +34,26 @@ Prior MountEvidence::priorOf(const std_msgs::Header& header) {
     problem_ = pose.problem;
     return prior;
   }
-  ground_ = mountedGround(*pose.transform);
+  const MountedGround ground = mountedGround(*pose.transform);
+  height_ = ground.height;
   if (pose.exact) camera_ = pose.transform;
-  prior.expected_up = ground_.up.direction;
-  prior.up_error = ground_.up.error;
+  prior.expected_up = ground.up.direction;
+  prior.up_error = ground.up.error;
   prior.up_source = UpSource::kTf;
-  prior.expected_height = ground_.height;
+  prior.expected_height = height_;
   return prior;
 }
 
 void MountEvidence::add(const std_msgs::Header& header, const Detection& detection) {
   if (!wanted()) return;
-  watch_.add(header.stamp.toSec(), detection, camera_, ground_.height);
+  watch_.add(header.stamp.toSec(), detection, camera_, height_);
   if (!watch_.text().empty()) {
     moved_ = watch_.text();
     ++off_;
   }
-  if (!detection.found() || !ground_.height) return;
+  if (!detection.found() || !height_) return;
   heights_.push_back(detection.distance);
-  tf_heights_.push_back(ground_.height->height);
+  tf_heights_.push_back(height_->height);
 }
 
 RobotFacts MountEvidence::facts() const {

@@ -30,14 +30,14 @@ class MountEvidence {
   NodeParameters parameters_;
   const tf2::BufferCore& frames_;
   MountWatch watch_;
-  std::optional<Eigen::Isometry3d> camera_;  ///< T_base_camera at the image
-  MountedGround ground_{};
+  std::optional<Eigen::Isometry3d> camera_;      ///< T_base_camera at the image
+  std::optional<Prior::ExpectedHeight> height_;  ///< by tf at the image
   std::string frame_id_;
-  std::string problem_;      ///< of the last image without tf
+  std::string problem_;  ///< of the last image without tf
   std::size_t images_ = 0;
-  std::size_t missing_ = 0;  ///< [#] images without tf
-  std::string moved_;        ///< what was said last of the mount
-  std::size_t off_ = 0;      ///< [#] planes while something is said of it
+  std::size_t missing_ = 0;                   ///< [#] images without tf
+  std::string moved_;                         ///< what was said last of the mount
+  std::size_t off_ = 0;                       ///< [#] planes while something is said of it
   std::vector<double> heights_, tf_heights_;  ///< [m]
 };
 
