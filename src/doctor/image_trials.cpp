@@ -8,8 +8,8 @@ namespace {
 /// [m] Tried in turn; beyond the last one no camera of the kind sees a floor.
 constexpr double kRanges[] = {1.0, 2.0, 4.0, 6.0, 10.0};
 constexpr std::size_t kFewest = 2;  // [#] images without a plane
-/// Planes in more than one of so many images: then there is no lasting cause.
-constexpr std::size_t kNearlyNone = 10;
+/// Planes in more than one of so many images: then nothing keeps them away for good.
+constexpr std::size_t kNearlyNone = 4;
 
 /// @return up of a camera that is turned by half a turn about its optical axis.
 Eigen::Vector3d rolled(const Eigen::Vector3d& up) { return {-up.x(), -up.y(), up.z()}; }

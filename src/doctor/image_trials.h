@@ -19,8 +19,8 @@ class ImageTrials {
   /// @param detection what was seen of it; with a plane nothing more is tried.
   void add(const DepthView& depth, const CameraModel& camera, const Prior& prior,
            const Detection& detection);
-  /// @return `upside-down` or `range-max`, or nothing: with planes in more than a tenth of the
-  /// images, with fewer than two without, and where nothing heals most of these.
+  /// @return `upside-down` or `range-max`, or nothing: with planes in more than a quarter of
+  /// the images, with fewer than two without, and where nothing heals most of these.
   Findings findings() const;
 
   std::size_t images() const { return images_; }
