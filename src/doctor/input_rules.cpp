@@ -1,5 +1,6 @@
 #include "doctor/input_rules.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -21,21 +22,27 @@ std::string number(double value, int digits) {
   return text;
 }
 
+/// @return of other topics the one that is depth by its name, or else the first.
+const std::string& likeliest(const std::vector<std::string>& topics) {
+  const auto depth = std::find_if(topics.begin(), topics.end(), [](const std::string& topic) {
+    return topic.find("depth") != std::string::npos;
+  });
+  return depth == topics.end() ? topics.front() : *depth;
+}
+
 /// The remap that gives a detection another topic.
-std::string remap(const InputFacts& input, const std::string& to) {
-  const bool points = input.from_points;
+std::string remap(const InputFacts& input) {
+  const std::string to = likeliest(input.depth.others);
   if (!input.live) return "--topic " + to;
-  return std::string(points ? "points" : "depth/image_raw") + ":=" + to +
-         (points ? " (argument points of detection.launch)"
-                 : " (argument depth of detection.launch)");
+  return input.from_points ? "points:=" + to + " (argument points of detection.launch)"
+                           : "depth/image_raw:=" + to + " (argument depth of detection.launch)";
 }
 
 /// What to do about a topic that is the wrong one.
 std::string choose(const InputFacts& input) {
   const auto& others = input.depth.others;
   if (others.empty()) return "";
-  return " Topics of this type: " + listed(others) +
-         ". Give one of them: " + remap(input, others.front()) + ".";
+  return " Topics of this type: " + listed(others) + ". Give one of them: " + remap(input) + ".";
 }
 
 std::string size(int width, int height) {
@@ -97,14 +104,13 @@ std::optional<Finding> findNoImages(const InputFacts& input) {
                        (input.from_points ? "." : ", or, for clouds, give --set input=points.")};
   }
   if (depth.type.empty()) {
-    return Finding{Code::kNoImages,
-                   "Nothing comes on " + depth.name +
-                       ", which nobody publishes: the camera's driver does not "
-                       "run, or has another name. Topics of this type: " +
-                       listed(depth.others) + "." +
-                       (depth.others.empty() ? " Start the driver (camera.launch)."
-                                             : " Start the driver, or remap " +
-                                                   remap(input, depth.others.front()) + ".")};
+    return Finding{Code::kNoImages, "Nothing comes on " + depth.name +
+                                        ", which nobody publishes: the camera's driver does not "
+                                        "run, or has another name. Topics of this type: " +
+                                        listed(depth.others) + "." +
+                                        (depth.others.empty() ? " Start the driver (camera.launch)."
+                                                              : " Start the driver, or remap " +
+                                                                    remap(input) + ".")};
   }
   return Finding{Code::kNoImages,
                  "Nothing comes on " + depth.name +
@@ -132,9 +138,12 @@ std::optional<Finding> findNoCameraInfo(const InputFacts& input) {
       (info.type.empty() ? ", which nobody publishes" : "") +
       ": without it nobody knows where a pixel looks. Topics of this type: " + listed(info.others) +
       ". ";
-  text += input.live ? "Have the driver publish it beside the image, or remap depth/camera_info:="
-                     : "Record it beside the image, or give --camera ";
-  text += !input.live ? "FX,FY,CX,CY." : info.others.empty() ? "TOPIC." : info.others.front() + ".";
+  if (!input.live) {
+    text += "Record it beside the image, or give --camera FX,FY,CX,CY.";
+  } else {
+    text += "Have the driver publish it beside the image, or remap " + info.name +
+            ":=" + (info.others.empty() ? "TOPIC" : likeliest(info.others)) + ".";
+  }
   return Finding{Code::kNoCameraInfo, text};
 }
 

@@ -73,8 +73,11 @@ class BagExamination {
     if (types_.count(depth_) != 0) facts_.depth.type = types_.at(depth_);
     for (const auto& [topic, type] : types_) {
       if (topic == depth_) continue;
-      const bool candidate = facts_.depth.type.empty() || type == facts_.depth.expected_type;
-      if (candidate) facts_.depth.others.push_back(topic + " (" + type + ")");
+      if (facts_.depth.type.empty()) {
+        facts_.depth.others.push_back(topic + " (" + type + ")");
+      } else if (type == facts_.depth.expected_type) {
+        facts_.depth.others.push_back(topic);
+      }
       if (type == "sensor_msgs/CameraInfo") facts_.info.others.push_back(topic);
     }
     if (settings_.points || options_.camera || depth_.empty()) return;
