@@ -58,8 +58,11 @@ struct RobotFacts {
   std::string frame_id;    ///< of the images
   std::string tf_problem;  ///< why most images have no transform; empty where they have
   std::string mount;       ///< how the plane differs from tf's ground; empty where it does not
-  double height = 0.0;     ///< [m] of the camera by the plane; 0: not known
-  double tf_height = 0.0;  ///< [m] by tf; 0: not known
+  bool mount_is_height = false;         ///< that is of a plane at quite another height
+  std::size_t planes_at_tf_height = 0;  ///< [#]
+  std::size_t planes_elsewhere = 0;     ///< [#] at quite another height
+  double height = 0.0;                  ///< [m] of the camera by the plane; 0: not known
+  double tf_height = 0.0;               ///< [m] by tf; 0: not known
 };
 
 }  // namespace dominant_plane_detection

@@ -1,26 +1,15 @@
 #include "doctor/input_rules.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
+
+#include "doctor/time_rules.h"
 
 namespace dominant_plane_detection {
 namespace {
 
-/// [s] by which images of this computer's clock may come late: a robot that acts on older ones acts
-/// on what is gone, and a busy computer is not so late.
-constexpr double kStale = 2.0;
-/// [s] by which they may be early: clocks that are set over the network agree to a hundredth, and a
-/// replay at ten times the speed delivers its clock up to a few tenths late.
-constexpr double kEarly = 0.5;
-
+constexpr const char* kImageType = "sensor_msgs/Image";
 constexpr const char* kCloudType = "sensor_msgs/PointCloud2";
-
-std::string number(double value, int digits) {
-  char text[48];
-  std::snprintf(text, sizeof(text), "%.*f", digits, value);
-  return text;
-}
 
 /// @return of other topics the one that is depth by its name, or else the first.
 const std::string& likeliest(const std::vector<std::string>& topics) {
@@ -45,6 +34,13 @@ std::string choose(const InputFacts& input) {
   return " Topics of this type: " + listed(others) + ". Give one of them: " + remap(input) + ".";
 }
 
+/// @return a length with one digit.
+std::string pixels(double length) {
+  char text[48];
+  std::snprintf(text, sizeof(text), "%.1f", length);
+  return text;
+}
+
 std::string size(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
@@ -63,30 +59,21 @@ std::string listed(const std::vector<std::string>& names) {
   return text.empty() ? "none" : text;
 }
 
-std::optional<Finding> findNoClock(const ClockFacts& clock) {
-  if (!clock.use_sim_time || clock.ticks) return std::nullopt;
-  return Finding{Code::kNoClock,
-                 "The parameter /use_sim_time is true, but no time comes on /clock, so that time "
-                 "stands still for every node. Either play the bag with rosbag play --clock (or "
-                 "start the simulator), or set it back: rosparam set /use_sim_time false, and "
-                 "start the nodes again."};
-}
-
 std::optional<Finding> findSwappedTopics(const InputFacts& input) {
   const TopicFacts& depth = input.depth;
   if (depth.type.empty() || depth.type == depth.expected_type) return std::nullopt;
   std::string text = depth.name + " has messages of type " + depth.type + ", but " +
                      depth.expected_type + " is expected: ";
-  if (depth.type == kCloudType) {
+  if (!input.from_points && depth.type == kCloudType) {
+    text += "it is a cloud. Set the parameter input to points and remap points:=" + depth.name +
+            ", or take a depth image.";
+  } else if (input.from_points && depth.type == kImageType) {
     text +=
-        "it is a cloud, where a depth image should be. Set the parameter input to points and "
-        "remap points:=" +
-        depth.name + ", or take a depth image.";
-  } else {
-    text +=
-        "the parameter input is points, which wants an organised cloud. Set input to depth and "
-        "remap depth/image_raw:=" +
+        "it is an image, and the parameter input is points. Set input to depth and remap "
+        "depth/image_raw:=" +
         depth.name + ", or take a cloud.";
+  } else {
+    text += "take another topic (one that an image_transport packs is named without what it adds).";
   }
   return Finding{Code::kTopicsSwapped, text + choose(input)};
 }
@@ -152,8 +139,7 @@ std::optional<Finding> findUncalibrated(const InputFacts& input) {
   const CameraInfoFacts& camera = *input.camera;
   return Finding{Code::kUncalibrated,
                  "The camera_info on " + input.info.name + " has the focal lengths " +
-                     number(camera.fx, 1) + " and " + number(camera.fy, 1) + " in " +
-                     camera.matrix +
+                     pixels(camera.fx) + " and " + pixels(camera.fy) + " in " + camera.matrix +
                      ": the driver has no calibration. Expected a calibrated "
                      "camera_info. Give the driver one (depth_camera_info_url of camera.launch), " +
                      (camera.matrix[0] == 'P' ? "or set rectified to false, if K is filled."
@@ -170,40 +156,6 @@ std::optional<Finding> findCameraInfoSize(const InputFacts& input) {
                      ": the calibration is of another resolution, or of another camera. Give the "
                      "driver a calibration of this size, or set binning or region of interest in "
                      "camera_info (depth_camera_info_url, depth_mode of camera.launch)."};
-}
-
-std::optional<Finding> findStampsApart(const InputFacts& input) {
-  if (!input.info_offset || !input.camera) return std::nullopt;
-  const bool other_frame = input.camera->frame_id != input.frame_id;
-  std::string text = "No camera_info on " + input.info.name + " has the stamp of an image on " +
-                     input.depth.name + ": the nearest is " + number(1e3 * *input.info_offset, 1) +
-                     " ms off. ";
-  text += other_frame
-              ? "Its frame is '" + input.camera->frame_id + "' and not '" + input.frame_id +
-                    "' either, so that it is not used at all. "
-              : "The latest one of the same frame and size is used instead, a second late. ";
-  return Finding{Code::kStampsApart,
-                 text +
-                     "Image and camera_info come from two programs, or the driver stamps them "
-                     "apart. Have one driver publish both with the same stamp (header.stamp)" +
-                     (other_frame ? " and frame_id." : ".")};
-}
-
-std::optional<Finding> findStampsOffClock(const InputFacts& input) {
-  if (!input.live || !input.age) return std::nullopt;
-  const double age = *input.age;
-  if (-kEarly <= age && age <= kStale) return std::nullopt;
-  const std::string what = "Images of " + input.depth.name + " come " + number(std::abs(age), 1) +
-                           " s " + (age > 0.0 ? "after" : "before") + " their stamps: ";
-  const bool replay = age > 3600.0;
-  return Finding{Code::kStampsOffClock,
-                 what + (replay ? "they are of a recording that plays without its clock. Play it "
-                                  "with rosbag play --clock, with /use_sim_time true "
-                                  "(replay.launch does)."
-                                : "the camera's computer has another time than this one, or "
-                                  "stamps come from the camera's own clock, so that tf and gravity "
-                                  "do not fit. Set the clocks by NTP or chrony, or correct the "
-                                  "driver's time_offset.")};
 }
 
 Findings examineInput(const InputFacts& input) {

@@ -36,8 +36,20 @@ std::optional<Finding> findScaleByHeight(const RobotFacts& robot) {
   return std::nullopt;
 }
 
+namespace {
+
+/// Where tf's ground is seen now and then, planes at other heights are tables and other levels.
+bool isAnotherLevel(const RobotFacts& robot) {
+  constexpr std::size_t kNowAndThen = 10;
+  return robot.mount_is_height && kNowAndThen * robot.planes_at_tf_height > robot.planes_elsewhere;
+}
+
+}  // namespace
+
 std::optional<Finding> findTfDisagrees(const RobotFacts& robot) {
-  if (robot.mount.empty() || findScaleByHeight(robot)) return std::nullopt;
+  if (robot.mount.empty() || isAnotherLevel(robot) || findScaleByHeight(robot)) {
+    return std::nullopt;
+  }
   const char last = robot.mount.back();
   return Finding{Code::kTfDisagrees,
                  robot.mount + (last == '.' ? "" : ".") +

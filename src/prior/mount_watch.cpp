@@ -28,6 +28,7 @@ MountedGround mountedGround(const Eigen::Isometry3d& camera) {
 void MountWatch::forget() {
   compared_.reset();
   elsewhere_ = 0;
+  heights_ = Heights();
   text_.clear();
 }
 
@@ -45,6 +46,7 @@ void MountWatch::add(double stamp, const Detection& detection,
   compared_ = stamp;
   const double off = detection.distance - height->height;
   elsewhere_ = std::abs(off) > height->tolerance ? elsewhere_ + 1 : 0;
+  ++(elsewhere_ == 0 ? heights_.expected : heights_.others);
   if (elsewhere_ == 0) {
     check_.add(stamp, detection, *camera);
     text_ = check_.moved() ? check_.moved()->text() : "";

@@ -35,6 +35,15 @@ class MountWatch {
   /// @return how the mount differs from tf, in a sentence; empty where it does not, and after a
   /// second without a plane.
   const std::string& text() const { return text_; }
+  /// [#] planes since the last `forget`, by whether they are at the height that tf expects. Where
+  /// some are, others are of another level, and say nothing about the mount.
+  struct Heights {
+    std::size_t expected = 0;
+    std::size_t others = 0;
+  };
+  const Heights& heights() const { return heights_; }
+  /// @return whether `text` is of a plane at another height.
+  bool isOfHeight() const { return !text_.empty() && elsewhere_ > 0; }
   /// What is usual of the mount stays.
   void forget();
   /// Another camera.
@@ -45,6 +54,7 @@ class MountWatch {
   MountCheck check_;
   std::optional<double> compared_;  ///< [s] when a plane was last held against tf
   int elsewhere_ = 0;  ///< [#] images in a row with a plane at another height than tf expects
+  Heights heights_;
   std::string text_;
 };
 

@@ -99,6 +99,9 @@ void DetectionDiagnostics::addValues(diagnostic_updater::DiagnosticStatusWrapper
   status.add("up is known by", input_.robot.up_source);
   status.add("up, what is passed over", input_.robot.remark);
   status.add(keys::kMount, input_.robot.mount);
+  status.add(keys::kMountIsHeight, static_cast<int>(input_.robot.mount_is_height));
+  status.add(keys::kPlanesAtTfHeight, input_.robot.heights.expected);
+  status.add(keys::kPlanesElsewhere, input_.robot.heights.others);
   status.add(keys::kTfProblem, input_.robot.tf_problem);
   status.addf(keys::kHeight, "%.4f", input_.robot.height);
   status.addf(keys::kTfHeight, "%.4f", input_.robot.tf_height);

@@ -134,6 +134,8 @@ void PlanePrior::add(const DetectionInputs::Frame& frame, const Detection& detec
   // Only tf of the image's very time says something about the mount.
   mount_.add(frame.header.stamp.toSec(), detection, camera_, height_);
   report(status_.mount, mount_.text());
+  status_.mount_is_height = mount_.isOfHeight();
+  status_.heights = mount_.heights();
   status_.height = detection.found() ? detection.distance : 0.0;
 }
 

@@ -32,9 +32,11 @@ class PlanePrior {
 
   /// What diagnostics say.
   struct Status {
-    std::string up_source;   ///< in words
-    std::string remark;      ///< why something that is wanted is not taken
-    std::string mount;       ///< how the mount differs from tf; empty where it does not
+    std::string up_source;         ///< in words
+    std::string remark;            ///< why something that is wanted is not taken
+    std::string mount;             ///< how the mount differs from tf; empty where it does not
+    bool mount_is_height = false;  ///< that is of a plane at quite another height
+    MountWatch::Heights heights;
     std::string tf_problem;  ///< why tf has nothing of the last image, although it is wanted
     double height = 0.0;     ///< [m] of the camera by the last plane; 0: there was none
     double tf_height = 0.0;  ///< [m] of the camera by tf of the last image; 0: not known

@@ -13,6 +13,7 @@
 #include "detection_status.h"
 #include "doctor/input_rules.h"
 #include "doctor/robot_rules.h"
+#include "doctor/time_rules.h"
 #include "live_input.h"
 #include "ros/diagnostic_keys.h"
 
@@ -122,6 +123,11 @@ class LiveExamination {
     if (name_.empty()) return facts;
     facts.tf_problem = status_.lasting(name_, keys::kTfProblem);
     facts.mount = status_.lasting(name_, keys::kMount);
+    facts.mount_is_height = number(keys::kMountIsHeight) != 0.0;
+    facts.planes_at_tf_height = static_cast<std::size_t>(number(keys::kPlanesAtTfHeight));
+    facts.planes_elsewhere = static_cast<std::size_t>(number(keys::kPlanesElsewhere));
+    // A single plane may be a table's.
+    if (facts.mount.empty()) return facts;
     facts.height = number(keys::kHeight);
     facts.tf_height = number(keys::kTfHeight);
     return facts;

@@ -7,6 +7,8 @@
 namespace dominant_plane_detection {
 namespace {
 
+constexpr std::size_t kLasting = 6;  // [#] images, as many as the mount is judged by
+
 /// @return 0 of nothing.
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -47,10 +49,7 @@ Prior MountEvidence::priorOf(const std_msgs::Header& header) {
 void MountEvidence::add(const std_msgs::Header& header, const Detection& detection) {
   if (!wanted()) return;
   watch_.add(header.stamp.toSec(), detection, camera_, height_);
-  if (!watch_.text().empty()) {
-    moved_ = watch_.text();
-    ++off_;
-  }
+  off_ = watch_.text().empty() ? 0 : off_ + 1;
   if (!detection.found() || !height_) return;
   heights_.push_back(detection.distance);
   tf_heights_.push_back(height_->height);
@@ -61,8 +60,11 @@ RobotFacts MountEvidence::facts() const {
   facts.base_frame = wanted() ? parameters_.base_frame : "";
   facts.frame_id = frame_id_;
   if (2 * missing_ > images_) facts.tf_problem = problem_;
-  // A drive over a ramp or another level is no mount that moved: it lasts.
-  if (2 * off_ > heights_.size()) facts.mount = moved_;
+  // A mount that moved is off until the end.
+  if (off_ >= kLasting) facts.mount = watch_.text();
+  facts.mount_is_height = watch_.isOfHeight();
+  facts.planes_at_tf_height = watch_.heights().expected;
+  facts.planes_elsewhere = watch_.heights().others;
   facts.height = median(heights_);
   facts.tf_height = median(tf_heights_);
   return facts;

@@ -36,8 +36,7 @@ class MountEvidence {
   std::string problem_;  ///< of the last image without tf
   std::size_t images_ = 0;
   std::size_t missing_ = 0;                   ///< [#] images without tf
-  std::string moved_;                         ///< what was said last of the mount
-  std::size_t off_ = 0;                       ///< [#] planes while something is said of it
+  std::size_t off_ = 0;                       ///< [#] images at the end for which the mount was off
   std::vector<double> heights_, tf_heights_;  ///< [m]
 };
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "doctor/support_finding.h"
+#include "doctor/time_rules.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -81,6 +82,13 @@ TEST(InputRules, TopicsAreSwapped) {
   input.depth.type = kImage;
   expectOnly(examineInput(input), Code::kTopicsSwapped,
              {kImage, "input to depth", "depth/image_raw:=/camera/depth/image_raw"});
+}
+
+TEST(InputRules, AnotherTypeIsNeitherOfThem) {
+  InputFacts input = healthy();
+  input.depth.type = "sensor_msgs/CompressedImage";
+  expectOnly(examineInput(input), Code::kTopicsSwapped,
+             {"sensor_msgs/CompressedImage", "image_transport", "/other/image"});
 }
 
 TEST(InputRules, ThereIsNoCameraInfo) {

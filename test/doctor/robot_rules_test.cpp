@@ -38,6 +38,18 @@ TEST(RobotRules, ThePlaneIsNotWhereTfHasTheGround) {
              {"mount moved: by 5 deg.", "calibrate_mount", "mount_pitch"});
 }
 
+TEST(RobotRules, ATableIsNoMountThatMovedWhereTheFloorIsSeenAsWell) {
+  RobotFacts robot = healthy();
+  robot.mount = "The plane is 0.7 m above where tf has the ground.";
+  robot.mount_is_height = true;
+  robot.planes_elsewhere = 100;
+  expectOnly(examineRobot(robot), Code::kTfDisagrees);
+  robot.planes_at_tf_height = 11;
+  EXPECT_TRUE(examineRobot(robot).empty());
+  robot.mount_is_height = false;  // at the right height it is turned
+  expectOnly(examineRobot(robot), Code::kTfDisagrees);
+}
+
 TEST(RobotRules, AHeightThatIsOffByAUnitIsOneOfDepth) {
   RobotFacts robot = healthy();
   robot.mount = "The plane is 0.36 m above where tf has the ground.";

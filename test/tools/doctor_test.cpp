@@ -18,6 +18,7 @@
 #include <string>
 
 #include "support/command.h"
+#include "support/oni_recording.h"
 #include "support/recordings.h"
 
 namespace dominant_plane_detection {
@@ -160,6 +161,19 @@ fs::path Doctor::folder_;
 TEST_F(Doctor, FindsNothingInAGoodDrive) {
   expectHealthy(doctor(path("drive.bag")), "16 of 16 images of /camera/depth/image_raw");
   expectHealthy(doctor(plantMount(0.45, 0.0) + " --set base_frame=base_link"), "16 with a plane");
+}
+
+TEST_F(Doctor, LooksAtImagesOfFoldersAndOniRecordings) {
+  const std::string render = std::string(DPD_RENDER_SCENE) + " " + DPD_SOURCE +
+                             "/scenes/rubbish_bin.yaml --rate 2 --duration 1 --output ";
+  ASSERT_EQ(run(render + path("images")).status, 0);
+  const std::string images = path("images/depth") + " --camera 580,580,319.5,239.5";
+  expectHealthy(doctor(images), "3 of 3 depth images, 3 with a plane");
+  expectOnly(doctor(images + " --depth-scale 200"), "depth-scale", {"--depth-scale"});
+  EXPECT_EQ(doctor(path("images/depth")).status, 2) << "a PNG does not say its camera";
+  recordOni("virtual://rubbish_bin?serial=DOCTOR&noise=0", path("drive.oni"), 4);
+  expectHealthy(doctor(path("drive.oni")), "with a plane");
+  expectOnly(doctor(path("drive.oni") + " --range 0.5,0.7"), "range-max", {"Set range_max to 1"});
 }
 
 TEST_F(Doctor, WrongUnit) {
