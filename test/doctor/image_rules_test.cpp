@@ -173,6 +173,7 @@ TEST(ImageRules, NoCauseIsToldThatNothingProves) {
   // A wall: neither up nor range makes it the ground.
   const auto wall = inMillimetres(planeDepth(binCamera(), {0.0, 0.0, -1.0}, 1.5));
   EXPECT_TRUE(study(wall).empty());
+  EXPECT_TRUE(study(times(wall, 5.0)).empty()) << "odd, but no unit gives it a plane";
   EXPECT_TRUE(study(Millimetres(640, 480)).empty());
 }
 

@@ -131,6 +131,9 @@ TEST(InputRules, ACameraInfoIsOfAnotherSize) {
              {"640 x 480", "320 x 240", "depth_camera_info_url", "binning"});
   input.camera->width = 640;
   expectOnly(examineInput(input), Code::kCameraInfoSize, {"640 x 240"});
+  input.camera->width = 320;
+  input.camera->height = 480;
+  expectOnly(examineInput(input), Code::kCameraInfoSize, {"320 x 480"});
 }
 
 TEST(InputRules, StampsAreApart) {
