@@ -55,7 +55,6 @@ struct ClockFacts {
 /// What tf says of the camera, and how the plane differs.
 struct RobotFacts {
   std::string base_frame;  ///< empty: nothing is wanted of tf
-  std::string frame_id;    ///< of the images
   std::string tf_problem;  ///< why most images have no transform; empty where they have
   std::string mount;       ///< how the plane differs from tf's ground; empty where it does not
   bool mount_is_height = false;         ///< that is of a plane at quite another height

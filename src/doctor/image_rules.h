@@ -28,7 +28,6 @@ class ImageStudy {
 
   std::size_t images() const { return trials_.images(); }
   std::size_t planes() const { return trials_.planes(); }
-  const ShadowSides& shadows() const { return shadows_; }
 
  private:
   DominantPlaneDetector detector_;

@@ -29,7 +29,6 @@ Prior MountEvidence::priorOf(const std_msgs::Header& header) {
   height_.reset();
   if (!wanted()) return prior;
   ++images_;
-  frame_id_ = header.frame_id;
   const Pose pose = findPose(frames_, parameters_.base_frame, header.frame_id, header.stamp);
   if (!pose.transform) {
     ++missing_;
@@ -58,7 +57,6 @@ void MountEvidence::add(const std_msgs::Header& header, const Detection& detecti
 RobotFacts MountEvidence::facts() const {
   RobotFacts facts;
   facts.base_frame = wanted() ? parameters_.base_frame : "";
-  facts.frame_id = frame_id_;
   if (2 * missing_ > images_) facts.tf_problem = problem_;
   // A mount that moved is off until the end.
   if (off_ >= kLasting) facts.mount = watch_.text();

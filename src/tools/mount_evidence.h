@@ -32,8 +32,7 @@ class MountEvidence {
   MountWatch watch_;
   std::optional<Eigen::Isometry3d> camera_;      ///< T_base_camera at the image
   std::optional<Prior::ExpectedHeight> height_;  ///< by tf at the image
-  std::string frame_id_;
-  std::string problem_;  ///< of the last image without tf
+  std::string problem_;                          ///< of the last image without tf
   std::size_t images_ = 0;
   std::size_t missing_ = 0;                   ///< [#] images without tf
   std::size_t off_ = 0;                       ///< [#] images at the end for which the mount was off

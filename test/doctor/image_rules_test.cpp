@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "doctor/no_plane_trials.h"
-#include "doctor/support_finding.h"
+#include "support/finding.h"
 #include "support/synthetic_depth.h"
 #include "synthetic/renderer.h"
 

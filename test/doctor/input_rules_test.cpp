@@ -6,8 +6,8 @@
 #include <iterator>
 #include <set>
 
-#include "doctor/support_finding.h"
 #include "doctor/time_rules.h"
+#include "support/finding.h"
 
 namespace dominant_plane_detection {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "doctor/support_finding.h"
+#include "support/finding.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -10,7 +10,6 @@ namespace {
 RobotFacts healthy() {
   RobotFacts robot;
   robot.base_frame = "base_link";
-  robot.frame_id = "optical";
   robot.height = 0.45;
   robot.tf_height = 0.46;
   return robot;
