@@ -45,8 +45,9 @@ void takeProfile(const ros::NodeHandle& node) {
 void PlaneDetectionNodelet::onTimer() {
   // Somebody may have come during the start.
   followListeners();
-  diagnostics_->report({inputs_->subscribed(), inputs_->counts(), inputs_->problem(),
-                        subscription_error_, prior_->status()});
+  diagnostics_->report({inputs_->subscribed(), inputs_->counts(), inputs_->topics(),
+                        inputs_->problem(), subscription_error_, prior_->status(),
+                        trials_.cause()});
 }
 
 void PlaneDetectionNodelet::start() {
@@ -55,6 +56,7 @@ void PlaneDetectionNodelet::start() {
   takeProfile(private_node);
   detector_ = DominantPlaneDetector(
       loadParameters<Parameters, PlaneDetectionConfig>(private_node, nodeletParameters()));
+  trials_ = NoPlaneTrials(detector_.parameters());
   correction_ = readCorrection(private_node);
   learner_ = std::make_unique<CorrectionLearner>(private_node, detector_.parameters().noise,
                                                  correction_.has_value());
@@ -109,6 +111,7 @@ void PlaneDetectionNodelet::trySubscriptions() {
   } else if (!wanted && inputs_->subscribed()) {
     inputs_->unsubscribe();
     prior_->unsubscribe();
+    trials_ = NoPlaneTrials(detector_.parameters());
   }
   overlay_->followListeners();
   pictures_->follow(overlay_->anybodyListens() || clouds_->wantPictures());
@@ -149,6 +152,7 @@ void PlaneDetectionNodelet::detect(const DetectionInputs::Frame& frame) {
   boxes_->publish(frame, detection, parameters);
   clouds_->publish(frame, detection);  // after the tf that they may be in
   overlay_->publish(frame, detection);
+  trials_.add(ros::SteadyTime::now().toSec(), frame.depth, frame.camera, prior, detection);
 }
 
 /// Lets the frame on the ground go out where somebody needs it.
@@ -165,6 +169,7 @@ void PlaneDetectionNodelet::onReconfigure(PlaneDetectionConfig& config) {
   const std::string errors = joined(findErrors(parameters));
   if (errors.empty()) {
     detector_ = DominantPlaneDetector(parameters);
+    trials_ = NoPlaneTrials(parameters);
     return;
   }
   NODELET_ERROR_STREAM("Refused parameters, the old ones stay: " << errors);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "doctor/no_plane_trials.h"
 #include "dominant_plane_detection/depth_correction.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
 #include "nodelets/periodic_nodelet.h"
@@ -53,6 +54,7 @@ class PlaneDetectionNodelet : public PeriodicNodelet {
 
   std::optional<DepthCorrection> correction_;
   DominantPlaneDetector detector_;
+  NoPlaneTrials trials_{Parameters()};
   RayTable rays_;  ///< of the images' camera
   std::unique_ptr<RobotFrames> frames_;
   std::unique_ptr<RobotBody> body_;

@@ -51,7 +51,7 @@ void BoxOutput::publish(const DetectionInputs::Frame& frame, const Detection& de
 /// Where odometry comes or goes, things are other ones: their places are not to be compared.
 Eigen::Isometry2d BoxOutput::groundInWorld(const std_msgs::Header& header,
                                            const Eigen::Isometry3d& T_ground_optical) {
-  RobotFrames::Pose camera;
+  Pose camera;
   if (!parameters_.odom_frame.empty()) {
     camera = frames_.pose(parameters_.odom_frame, header.frame_id, header.stamp);
   }

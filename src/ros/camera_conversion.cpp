@@ -71,6 +71,18 @@ ImageSize imageSize(const sensor_msgs::CameraInfo& info) {
           side(roi.height, roi.y_offset, info.height, info.binning_y)};
 }
 
+CameraInfoFacts cameraInfoFacts(const sensor_msgs::CameraInfo& info, bool rectified) {
+  const ImageSize size = imageSize(info);
+  CameraInfoFacts facts;
+  facts.frame_id = info.header.frame_id;
+  facts.width = static_cast<int>(size.width);
+  facts.height = static_cast<int>(size.height);
+  facts.fx = rectified ? info.P[0] : info.K[0];
+  facts.fy = rectified ? info.P[5] : info.K[4];
+  facts.matrix = rectified ? "P" : "K";
+  return facts;
+}
+
 std::optional<CameraModel> cameraModel(const sensor_msgs::CameraInfo& info, bool rectified,
                                        std::string& error) {
   CameraModel camera;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "doctor/facts.h"
 #include "dominant_plane_detection/camera_model.h"
 
 namespace dominant_plane_detection {
@@ -18,6 +19,10 @@ struct ImageSize {
 /// @return of the images that come with a camera_info: binning and region of interest are taken off
 /// (REP 104; a binning of 0 means 1, a region of size 0 the whole image).
 ImageSize imageSize(const sensor_msgs::CameraInfo& info);
+
+/// What can be said of a camera_info whether or not it can be used.
+/// @param rectified P instead of K.
+CameraInfoFacts cameraInfoFacts(const sensor_msgs::CameraInfo& info, bool rectified);
 
 /// Makes the camera of the images that come with a camera_info.
 /// @param rectified false: K and D (plumb_bob with 4 or 5 coefficients, rational_polynomial with 8,

@@ -21,6 +21,8 @@ std::optional<DepthView::Type> depthType(const std::string& encoding) {
 
 }  // namespace
 
+bool isDepthEncoding(const std::string& encoding) { return depthType(encoding).has_value(); }
+
 std::optional<DepthView> DepthReader::read(const sensor_msgs::Image& image, std::string& error) {
   const auto type = depthType(image.encoding);
   if (!type) {

@@ -11,6 +11,9 @@
 
 namespace dominant_plane_detection {
 
+/// @return whether images of an encoding can be depth in millimetres or metres.
+bool isDepthEncoding(const std::string& encoding);
+
 /// Looks at depth image messages as the core does: 16UC1 and mono16 in millimetres, 32FC1 in metres
 /// (REP 118), of either byte order.
 class DepthReader {

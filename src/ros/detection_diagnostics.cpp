@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "ros/diagnostic_keys.h"
+
 namespace dominant_plane_detection {
 namespace {
 
@@ -60,12 +62,12 @@ void DetectionDiagnostics::summarise(diagnostic_updater::DiagnosticStatusWrapper
     status.summary(DiagnosticStatus::ERROR, "cannot subscribe: " + input_.subscription_error);
   } else if (!input_.subscribed) {
     status.summary(DiagnosticStatus::OK, "idle: nobody listens");
-  } else if (!input_.problem.empty()) {
-    status.summary(DiagnosticStatus::ERROR, input_.problem);
+  } else if (input_.problem) {
+    status.summary(DiagnosticStatus::ERROR, input_.problem->text);
   } else if (period_.failures > 0) {
     status.summary(DiagnosticStatus::ERROR, "cannot work on images: " + reason_);
   } else if (refused > 0) {
-    status.summaryf(DiagnosticStatus::WARN, "dropped %lu images that cannot be used: %s", refused,
+    status.summaryf(DiagnosticStatus::WARN, "dropped %lu images. %s", refused,
                     input_.counts.refusal.c_str());
   } else if (period_.images == 0) {
     status.summary(DiagnosticStatus::OK, "waiting for images");
@@ -73,7 +75,8 @@ void DetectionDiagnostics::summarise(diagnostic_updater::DiagnosticStatusWrapper
     status.summaryf(DiagnosticStatus::WARN, "too slow: newer images overtook %lu of %.0f",
                     overtaken, received);
   } else if (period_.planes == 0) {
-    status.summary(DiagnosticStatus::WARN, "no plane: " + reason_);
+    status.summary(DiagnosticStatus::WARN,
+                   input_.no_plane ? input_.no_plane->text : "no plane: " + reason_);
   } else if (!input_.robot.mount.empty()) {
     status.summary(DiagnosticStatus::WARN, input_.robot.mount);
   } else if (!input_.robot.remark.empty()) {
@@ -87,13 +90,24 @@ void DetectionDiagnostics::summarise(diagnostic_updater::DiagnosticStatusWrapper
 void DetectionDiagnostics::addValues(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   status.add("state of the last image", state_);
   status.add("reason", reason_);
+  const std::optional<Finding>& cause = input_.problem ? input_.problem : input_.no_plane;
+  status.add(keys::kCause, cause ? asLine(*cause) : "");
   status.addf("rate [1/s]", "%.2f", rate());
   const auto images = static_cast<double>(std::max<std::uint64_t>(period_.images, 1));
   status.addf("time an image, mean [ms]", "%.3f", 1e3 * period_.sum_seconds / images);
   status.addf("time an image, longest [ms]", "%.3f", 1e3 * period_.most_seconds);
   status.add("up is known by", input_.robot.up_source);
   status.add("up, what is passed over", input_.robot.remark);
-  status.add("mount", input_.robot.mount);
+  status.add(keys::kMount, input_.robot.mount);
+  status.add(keys::kMountIsHeight, static_cast<int>(input_.robot.mount_is_height));
+  status.add(keys::kPlanesAtTfHeight, input_.robot.heights.expected);
+  status.add(keys::kPlanesElsewhere, input_.robot.heights.others);
+  status.add(keys::kTfProblem, input_.robot.tf_problem);
+  status.addf(keys::kHeight, "%.4f", input_.robot.height);
+  status.addf(keys::kTfHeight, "%.4f", input_.robot.tf_height);
+  status.add(keys::kDepthTopic, input_.topics.depth);
+  status.add(keys::kInfoTopic, input_.topics.info);
+  status.add(keys::kPointsTopic, input_.topics.points);
   status.add("images received", input_.counts.received);
   status.add("dropped images, overtaken by newer ones", input_.counts.overtaken);
   status.add("dropped images, unusable", input_.counts.refused);

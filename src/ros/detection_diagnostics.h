@@ -4,8 +4,10 @@
 #include <ros/node_handle.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "doctor/finding.h"
 #include "dominant_plane_detection/detection.h"
 #include "ros/detection_inputs.h"
 #include "ros/plane_prior.h"
@@ -19,9 +21,11 @@ class DetectionDiagnostics {
   struct Input {
     bool subscribed;
     DetectionInputs::Counts counts;
-    std::string problem;             ///< while nothing comes that can be looked at
-    std::string subscription_error;  ///< why nothing is subscribed that is wanted
-    PlanePrior::Status robot;        ///< what the robot knows, and how the plane differs from it
+    DetectionInputs::Topics topics;
+    std::optional<Finding> problem;   ///< while nothing comes that can be looked at
+    std::string subscription_error;   ///< why nothing is subscribed that is wanted
+    PlanePrior::Status robot;         ///< what the robot knows, and how the plane differs from it
+    std::optional<Finding> no_plane;  ///< why there is no plane, where that is known
   };
 
   DetectionDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,

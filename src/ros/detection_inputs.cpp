@@ -3,12 +3,13 @@
 #include <image_transport/camera_common.h>
 #include <ros/callback_queue_interface.h>
 #include <ros/console.h>
-#include <ros/master.h>
 
 #include <utility>
 
+#include "doctor/input_rules.h"
 #include "ros/camera_conversion.h"
 #include "ros/queued_call.h"
+#include "ros/topic_facts.h"
 #include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
@@ -20,16 +21,6 @@ constexpr double kThrottle = 5.0;  // [s] between lines of the same kind
 constexpr std::uint32_t kQueue = 5;
 
 double steadyNow() { return ros::SteadyTime::now().toSec(); }
-
-std::string topicsOfType(const std::string& type) {
-  ros::master::V_TopicInfo topics;
-  if (!ros::master::getTopics(topics)) return "(the master does not answer)";
-  std::string names;
-  for (const ros::master::TopicInfo& topic : topics) {
-    if (topic.datatype == type) names += (names.empty() ? "" : ", ") + topic.name;
-  }
-  return names.empty() ? "none" : names;
-}
 
 }  // namespace
 
@@ -70,16 +61,31 @@ void DetectionInputs::unsubscribe() {
   newest_cloud_.reset();
   matcher_ = CameraInfoMatcher();
   known_problem_ = InputWatch::Problem::kNone;
-  problem_text_.clear();
+  problem_.reset();
+  seen_ = InputFacts();
 }
 
 void DetectionInputs::onImage(const sensor_msgs::ImageConstPtr& image) {
   ++counts_.received;
   watch_.sawImage(steadyNow());
+  look(*image);
   onPair(matcher_.addImage(image, steadyNow()));
 }
 
+/// Keeps what is said of an image where something is wrong.
+void DetectionInputs::look(const sensor_msgs::Image& image) {
+  seen_.frame_id = image.header.frame_id;
+  seen_.encoding = image.encoding;
+  seen_.encoding_is_depth = isDepthEncoding(image.encoding);
+  seen_.width = static_cast<int>(image.width);
+  seen_.height = static_cast<int>(image.height);
+  seen_.info_offset = info_stamp_.toSec() - image.header.stamp.toSec();
+}
+
 void DetectionInputs::onInfo(const sensor_msgs::CameraInfoConstPtr& info) {
+  ++seen_.info.messages;
+  seen_.camera = cameraInfoFacts(*info, rectified_);
+  info_stamp_ = info->header.stamp;
   onPair(matcher_.addInfo(info, steadyNow()));
 }
 
@@ -147,33 +153,54 @@ void DetectionInputs::handOn(const sensor_msgs::PointCloud2& cloud) {
 
 void DetectionInputs::refuse(const std::string& what, const std::string& error) {
   ++counts_.refused;
-  counts_.refusal = error;
+  InputFacts refused = facts();
+  refused.refusal = error;
+  const Findings findings = examineInput(refused);
+  counts_.refusal = findings.empty() ? error : findings.front().text;
   ROS_WARN_STREAM_THROTTLE(kThrottle, "Dropped " << what << ": " << error << ".");
 }
 
-std::string DetectionInputs::problem() {
-  if (!subscribed_) return "";
-  const InputWatch::Problem now = watch_.problem(steadyNow());
+const std::optional<Finding>& DetectionInputs::problem() {
+  const InputWatch::Problem now =
+      subscribed_ ? watch_.problem(steadyNow()) : InputWatch::Problem::kNone;
   const bool begins = now != std::exchange(known_problem_, now);
-  if (begins) problem_text_ = describe(now);
-  if (begins && now != InputWatch::Problem::kNone) ROS_WARN_STREAM(problem_text_);
-  return problem_text_;
+  if (begins) problem_ = describe(now);
+  if (begins && problem_) ROS_WARN_STREAM(problem_->text);
+  return problem_;
 }
 
-std::string DetectionInputs::describe(InputWatch::Problem problem) const {
-  const bool depth = kind_ == InputKind::kDepth;
-  const std::string topic = depth ? images_.getTopic() : points_.getTopic();
-  if (problem == InputWatch::Problem::kSilence) {
-    const char* const type = depth ? "sensor_msgs/Image" : "sensor_msgs/PointCloud2";
-    return "Nothing comes on " + topic + ". Topics of this type: " + topicsOfType(type) + ".";
-  }
+DetectionInputs::Topics DetectionInputs::topics() const {
+  if (kind_ == InputKind::kPoints) return {"", "", node_.resolveName(topics::kPoints)};
+  const std::string depth = node_.resolveName(topics::kDepth);
+  return {depth, node_.resolveName(image_transport::getCameraInfoTopic(depth)), ""};
+}
+
+/// @return what has been seen, without what the master knows.
+InputFacts DetectionInputs::facts() const {
+  const Topics names = topics();
+  InputFacts facts = seen_;
+  facts.from_points = kind_ == InputKind::kPoints;
+  facts.depth.name = facts.from_points ? names.points : names.depth;
+  facts.depth.messages = counts_.received;
+  facts.info.name = names.info;
+  facts.info_offset.reset();
+  return facts;
+}
+
+std::optional<Finding> DetectionInputs::describe(InputWatch::Problem problem) const {
+  if (problem == InputWatch::Problem::kNone) return std::nullopt;
+  InputFacts silent = facts();
+  const std::size_t infos = silent.info.messages;
+  silent.depth = topicFacts(silent.depth.name,
+                            silent.from_points ? "sensor_msgs/PointCloud2" : "sensor_msgs/Image");
   if (problem == InputWatch::Problem::kUnmatched) {
-    return "Images come on " + topic + ", but no camera_info for them on " + infos_.getTopic() +
-           (infos_.getNumPublishers() == 0 ? ", which nobody publishes"
-                                           : ": expected the images' frame_id and size") +
-           ". Topics of this type: " + topicsOfType("sensor_msgs/CameraInfo") + ".";
+    silent.depth.messages = 1;
+    silent.info = topicFacts(silent.info.name, "sensor_msgs/CameraInfo");
+    silent.info.messages = infos;
+    silent.info_offset = seen_.info_offset;
   }
-  return "";
+  const Findings findings = examineInput(silent);
+  return findings.empty() ? std::nullopt : std::optional<Finding>(findings.front());
 }
 
 }  // namespace dominant_plane_detection

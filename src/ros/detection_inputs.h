@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "doctor/facts.h"
+#include "doctor/finding.h"
 #include "dominant_plane_detection/camera_model.h"
 #include "dominant_plane_detection/depth_image.h"
 #include "ros/camera_info_matcher.h"
@@ -42,7 +44,7 @@ class DetectionInputs {
     std::uint64_t received = 0;
     std::uint64_t overtaken = 0;  ///< a newer one came before they could be looked at
     std::uint64_t refused = 0;    ///< malformed
-    std::string refusal;          ///< why the last one was
+    std::string refusal;          ///< why the last one was, the likeliest cause and what to change
   };
 
   /// @param node topics are relative to it.
@@ -62,11 +64,20 @@ class DetectionInputs {
 
   const Counts& counts() const { return counts_; }
   /// To be called now and then.
-  /// @return one sentence while nothing comes that can be looked at, which the log has as well,
-  /// once each time that this begins; otherwise empty.
-  std::string problem();
+  /// @return what is wrong while nothing comes that can be looked at, which the log has as well,
+  /// once each time that this begins.
+  const std::optional<Finding>& problem();
+
+  /// The topics, resolved, whether they are subscribed or not; empty where none is needed.
+  struct Topics {
+    std::string depth;  ///< images
+    std::string info;   ///< camera_info
+    std::string points;
+  };
+  Topics topics() const;
 
  private:
+  void look(const sensor_msgs::Image& image);
   void onImage(const sensor_msgs::ImageConstPtr& image);
   void onInfo(const sensor_msgs::CameraInfoConstPtr& info);
   void onPair(const std::optional<CameraInfoMatcher::Pair>& pair);
@@ -77,7 +88,8 @@ class DetectionInputs {
   void handOn(const CameraInfoMatcher::Pair& pair);
   void handOn(const sensor_msgs::PointCloud2& cloud);
   void refuse(const std::string& what, const std::string& error);
-  std::string describe(InputWatch::Problem problem) const;
+  std::optional<Finding> describe(InputWatch::Problem problem) const;
+  InputFacts facts() const;
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
@@ -102,7 +114,9 @@ class DetectionInputs {
   Counts counts_;
   InputWatch watch_;
   InputWatch::Problem known_problem_ = InputWatch::Problem::kNone;
-  std::string problem_text_;
+  std::optional<Finding> problem_;
+  ros::Time info_stamp_;  ///< of the last camera_info
+  InputFacts seen_;       ///< of the last image and camera_info
 };
 
 }  // namespace dominant_plane_detection

@@ -85,7 +85,7 @@ void GravityInput::onImu(const sensor_msgs::Imu& imu) {
 
 /// The sensor is fixed to the camera: whatever is known of it last will do.
 std::optional<Eigen::Quaterniond> GravityInput::toOptical(const std::string& optical_frame) {
-  const RobotFrames::Pose pose = frames_.pose(optical_frame, *frame_, ros::Time(0));
+  const Pose pose = frames_.pose(optical_frame, *frame_, ros::Time(0));
   if (!pose.transform) {
     problem_ = pose.problem;
     return std::nullopt;

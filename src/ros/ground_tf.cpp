@@ -79,7 +79,7 @@ bool GroundTf::publishBase(const std_msgs::Header& header,
   const std::string root = rootOf(header.frame_id, below_base);
   const bool ours = roots_.count(root) != 0;
   if (below_base && !ours) return refuse(root, parameters_.base_frame, parameters_.base_frame);
-  const RobotFrames::Pose pose = frames_.pose(header.frame_id, root, header.stamp);
+  const Pose pose = frames_.pose(header.frame_id, root, header.stamp);
   if (!pose.transform || !isFree(root, parameters_.base_frame, frames_.parentOf(root)))
     return false;
   roots_.insert(root);

@@ -18,7 +18,7 @@ const std::set<std::string>& nodeletParameters() {
   return all;
 }
 
-void visitParameterFile(
+void visitAllParameters(
     const std::string& file,
     const std::function<void(const std::string& name, const std::string& value)>& visit) {
   try {
@@ -28,12 +28,19 @@ void visitParameterFile(
     }
     for (const auto& entry : root) {
       const auto name = entry.first.as<std::string>();
-      if (nodeletParameters().count(name) != 0) continue;
       visit(name, entry.second.IsScalar() ? entry.second.Scalar() : "");
     }
   } catch (const std::exception& error) {
     throw std::runtime_error(file + ": " + error.what());
   }
+}
+
+void visitParameterFile(
+    const std::string& file,
+    const std::function<void(const std::string& name, const std::string& value)>& visit) {
+  visitAllParameters(file, [&](const std::string& name, const std::string& value) {
+    if (nodeletParameters().count(name) == 0) visit(name, value);
+  });
 }
 
 void loadParameters(const std::string& file, Parameters& parameters) {

@@ -18,6 +18,11 @@ void visitParameterFile(
     const std::string& file,
     const std::function<void(const std::string& name, const std::string& value)>& visit);
 
+/// The same, with the lines that are the nodelet's own; the text of a list is empty.
+void visitAllParameters(
+    const std::string& file,
+    const std::function<void(const std::string& name, const std::string& value)>& visit);
+
 /// @return the names of parameters that are the nodelet's own.
 const std::set<std::string>& nodeletParameters();
 

@@ -2,18 +2,8 @@
 
 #include <ros/console.h>
 
-#include <cmath>
-#include <cstdio>
-
 namespace dominant_plane_detection {
 namespace {
-
-constexpr double kMountError =
-    0.175;  // [rad] a mount is reported, not refused, that is off by less
-/// Height by tf: of a floor that is uneven, and a mount that was knocked.
-constexpr double kHeightError = 0.1;        // [m]
-constexpr double kHeightErrorShare = 0.05;  // [-] of the height
-constexpr int kManyElsewhere = 15;          // [#] images
 
 const char* nameOf(UpSource source) {
   switch (source) {
@@ -36,7 +26,8 @@ PlanePrior::PlanePrior(const ros::NodeHandle& node, const NodeParameters& parame
     : parameters_(parameters),
       frames_(frames),
       gravity_(node, frames),
-      track_(parameters.smoothing_time) {}
+      track_(parameters.smoothing_time),
+      mount_(parameters.base_frame) {}
 
 void PlanePrior::subscribe() {
   if (!parameters_.base_frame.empty()) frames_.listen();
@@ -55,8 +46,7 @@ void PlanePrior::unsubscribe() {
 void PlanePrior::forget() {
   choice_ = UpChoice();
   remark_ = Remark();
-  compared_.reset();
-  elsewhere_ = 0;
+  mount_.forget();
   status_ = Status();
 }
 
@@ -64,7 +54,7 @@ void PlanePrior::forget() {
 void PlanePrior::beginAnewAfterJumps(const std_msgs::Header& header) {
   const bool first = last_.frame_id.empty();
   const bool other_camera = !first && header.frame_id != last_.frame_id;
-  if (other_camera) mount_check_.reset();
+  if (other_camera) mount_.reset();
   if (other_camera || (!first && header.stamp < last_.stamp)) {
     track_.reset();
     gravity_.reset();
@@ -75,6 +65,7 @@ void PlanePrior::beginAnewAfterJumps(const std_msgs::Header& header) {
 
 UpChoice::Candidates PlanePrior::candidates(const std_msgs::Header& header) {
   UpChoice::Candidates candidates;
+  status_.tf_height = 0.0;
   camera_.reset();
   height_.reset();
   // What the plane itself tells tf is no prior of it.
@@ -83,12 +74,10 @@ UpChoice::Candidates PlanePrior::candidates(const std_msgs::Header& header) {
     const auto pose = frames_.pose(parameters_.base_frame, header.frame_id, header.stamp);
     candidates.tf_problem = pose.problem;
     if (pose.transform) {
-      candidates.tf =
-          Up{pose.transform->linear().transpose() * Eigen::Vector3d::UnitZ(), kMountError};
-      const double height = pose.transform->translation().z();
-      if (height > 0.0) {
-        height_ = Prior::ExpectedHeight{height, kHeightError + kHeightErrorShare * height};
-      }
+      const MountedGround ground = mountedGround(*pose.transform);
+      candidates.tf = ground.up;
+      height_ = ground.height;
+      status_.tf_height = pose.transform->translation().z();
       if (pose.exact) camera_ = pose.transform;
     }
   }
@@ -96,6 +85,7 @@ UpChoice::Candidates PlanePrior::candidates(const std_msgs::Header& header) {
     candidates.gravity = gravity_.up(header.frame_id, header.stamp);
     candidates.gravity_problem = gravity_.problem();
   }
+  status_.tf_problem = candidates.tf_problem;
   return candidates;
 }
 
@@ -141,34 +131,12 @@ std::string PlanePrior::lasting(double stamp, const std::string& text) {
 
 void PlanePrior::add(const DetectionInputs::Frame& frame, const Detection& detection) {
   track_.add(frame.header.stamp.toSec(), detection, camera_);
-  compareWithTf(frame.header, detection);
-}
-
-/// Only tf of the image's very time says something about the mount.
-void PlanePrior::compareWithTf(const std_msgs::Header& header, const Detection& detection) {
-  constexpr double kPatience = 1.0;  // [s]
-  const double stamp = header.stamp.toSec();
-  if (!camera_ || !height_ || !detection.found()) {
-    if (compared_ && stamp - *compared_ < kPatience) return;
-    report(status_.mount, "");
-    elsewhere_ = 0;
-    return;
-  }
-  compared_ = stamp;
-  const double off = detection.distance - height_->height;
-  elsewhere_ = std::abs(off) > height_->tolerance ? elsewhere_ + 1 : 0;
-  if (elsewhere_ == 0) {
-    mount_check_.add(stamp, detection, *camera_);
-    report(status_.mount, mount_check_.moved() ? mount_check_.moved()->text() : "");
-  } else if (elsewhere_ >= kManyElsewhere) {
-    char text[200];
-    std::snprintf(
-        text, sizeof(text),
-        "The plane is %.2f m %s where tf has the ground of %s: it is another level, or the "
-        "mount is not where tf has it.",
-        std::abs(off), off < 0.0 ? "above" : "below", parameters_.base_frame.c_str());
-    report(status_.mount, text);
-  }
+  // Only tf of the image's very time says something about the mount.
+  mount_.add(frame.header.stamp.toSec(), detection, camera_, height_);
+  report(status_.mount, mount_.text());
+  status_.mount_is_height = mount_.isOfHeight();
+  status_.heights = mount_.heights();
+  status_.height = detection.found() ? detection.distance : 0.0;
 }
 
 /// Numbers change from image to image, and are told once: the log has what begins.

@@ -5,7 +5,7 @@
 
 #include "dominant_plane_detection/prior.h"
 #include "prior/known_up.h"
-#include "prior/mount_check.h"
+#include "prior/mount_watch.h"
 #include "prior/plane_track.h"
 #include "ros/detection_inputs.h"
 #include "ros/gravity_input.h"
@@ -32,9 +32,14 @@ class PlanePrior {
 
   /// What diagnostics say.
   struct Status {
-    std::string up_source;  ///< in words
-    std::string remark;     ///< why something that is wanted is not taken
-    std::string mount;      ///< how the mount differs from tf; empty where it does not
+    std::string up_source;         ///< in words
+    std::string remark;            ///< why something that is wanted is not taken
+    std::string mount;             ///< how the mount differs from tf; empty where it does not
+    bool mount_is_height = false;  ///< that is of a plane at quite another height
+    MountWatch::Heights heights;
+    std::string tf_problem;  ///< why tf has nothing of the last image, although it is wanted
+    double height = 0.0;     ///< [m] of the camera by the last plane; 0: there was none
+    double tf_height = 0.0;  ///< [m] of the camera by tf of the last image; 0: not known
   };
   const Status& status() const { return status_; }
 
@@ -47,7 +52,6 @@ class PlanePrior {
 
   void beginAnewAfterJumps(const std_msgs::Header& header);
   UpChoice::Candidates candidates(const std_msgs::Header& header);
-  void compareWithTf(const std_msgs::Header& header, const Detection& detection);
   void forget();
   std::string lasting(double stamp, const std::string& text);
   static void report(std::string& said, const std::string& now);
@@ -57,14 +61,12 @@ class PlanePrior {
   GravityInput gravity_;
   UpChoice choice_;
   PlaneTrack track_;
-  MountCheck mount_check_;
+  MountWatch mount_;
 
   std_msgs::Header last_;
   std::optional<Eigen::Isometry3d> camera_;  ///< T_base_camera at the image, from tf of its time
   std::optional<Prior::ExpectedHeight> height_;
   Remark remark_;
-  std::optional<double> compared_;  ///< [s] when a plane was last held against tf
-  int elsewhere_ = 0;  ///< [#] images in a row with a plane at another height than tf expects
   Status status_;
 };
 

@@ -14,6 +14,41 @@ std::string plainFrame(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
+Pose findPose(const tf2::BufferCore& buffer, const std::string& target, const std::string& source,
+              const ros::Time& stamp) {
+  Pose pose;
+  if (plainFrame(target) == plainFrame(source)) {
+    pose.transform = Eigen::Isometry3d::Identity();
+    pose.exact = true;
+    return pose;
+  }
+  const auto look = [&](const ros::Time& time) {
+    return buffer.lookupTransform(plainFrame(target), plainFrame(source), time);
+  };
+  const std::string problem = "No tf from " + target + " to " + source;
+  try {
+    pose.transform = tf2::transformToEigen(look(stamp));
+    pose.exact = !stamp.isZero();  // that is the latest, whatever its time
+    return pose;
+  } catch (const tf2::ExtrapolationException& error) {
+    pose.problem = problem + " of the image's time: " + error.what();
+  } catch (const std::exception& error) {
+    pose.problem = problem + ": " + error.what();
+    return pose;
+  }
+  try {
+    const geometry_msgs::TransformStamped latest = look(ros::Time(0));
+    const double late = stamp.toSec() - latest.header.stamp.toSec();
+    if (late >= 0.0 && late <= kLate) {
+      pose.transform = tf2::transformToEigen(latest);
+      pose.problem.clear();
+    }
+  } catch (const std::exception&) {
+    // It has said why above.
+  }
+  return pose;
+}
+
 void RobotFrames::listen() {
   if (transforms_) return;
   if (!buffer_) buffer_ = std::make_unique<tf2_ros::Buffer>();
@@ -56,40 +91,11 @@ bool RobotFrames::isOwn(const geometry_msgs::TransformStamped& transform) const 
          transform.header.stamp <= sent->second.header.stamp;
 }
 
-RobotFrames::Pose RobotFrames::pose(const std::string& target, const std::string& source,
-                                    const ros::Time& stamp) {
-  Pose pose;
-  if (plainFrame(target) == plainFrame(source)) {
-    pose.transform = Eigen::Isometry3d::Identity();
-    pose.exact = true;
-    return pose;
-  }
-  listen();
-  const auto look = [&](const ros::Time& time) {
-    return buffer_->lookupTransform(plainFrame(target), plainFrame(source), time);
-  };
-  const std::string problem = "No tf from " + target + " to " + source;
-  try {
-    pose.transform = tf2::transformToEigen(look(stamp));
-    pose.exact = !stamp.isZero();  // that is the latest, whatever its time
-    return pose;
-  } catch (const tf2::ExtrapolationException& error) {
-    pose.problem = problem + " of the image's time: " + error.what();
-  } catch (const std::exception& error) {
-    pose.problem = problem + ": " + error.what();
-    return pose;
-  }
-  try {
-    const geometry_msgs::TransformStamped latest = look(ros::Time(0));
-    const double late = stamp.toSec() - latest.header.stamp.toSec();
-    if (late >= 0.0 && late <= kLate) {
-      pose.transform = tf2::transformToEigen(latest);
-      pose.problem.clear();
-    }
-  } catch (const std::exception&) {
-    // It has said why above.
-  }
-  return pose;
+Pose RobotFrames::pose(const std::string& target, const std::string& source,
+                       const ros::Time& stamp) {
+  if (plainFrame(target) != plainFrame(source)) listen();
+  static const tf2::BufferCore kEmpty;
+  return findPose(buffer_ ? *buffer_ : kEmpty, target, source, stamp);
 }
 
 std::string RobotFrames::parentOf(const std::string& frame) {

@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/TransformStamped.h>
 #include <ros/node_handle.h>
+#include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -17,17 +18,22 @@ namespace dominant_plane_detection {
 /// @return a frame's name as tf2 has it: old recordings have a slash before it.
 std::string plainFrame(const std::string& frame);
 
-/// tf as a detection needs it: it never waits.
+/// A frame in another one.
+struct Pose {
+  std::optional<Eigen::Isometry3d> transform;  ///< T_target_source
+  bool exact = false;   ///< of the very time, and not up to a twentieth of a second older
+  std::string problem;  ///< why there is none, in one sentence
+};
+
+/// Never waits.
+Pose findPose(const tf2::BufferCore& buffer, const std::string& target, const std::string& source,
+              const ros::Time& stamp);
+
+/// tf as a detection needs it.
 ///
 /// All of it happens in the thread of the node's callback queue, in which transforms come as well.
 class RobotFrames {
  public:
-  struct Pose {
-    std::optional<Eigen::Isometry3d> transform;  ///< T_target_source
-    bool exact = false;   ///< of the very time, and not up to a twentieth of a second older
-    std::string problem;  ///< why there is none, in one sentence
-  };
-
   explicit RobotFrames(const ros::NodeHandle& node) : node_(node) {}
 
   /// Subscribes transforms; else that is done with the first call that needs them.

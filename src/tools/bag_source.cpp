@@ -8,27 +8,13 @@
 #include <map>
 #include <set>
 
+#include "bag_topics.h"
 #include "frame_source.h"
 #include "ros/camera_conversion.h"
 #include "ros/depth_conversion.h"
 
 namespace dominant_plane_detection {
 namespace {
-
-/// @return the topics whose images can be depth.
-std::set<std::string> depthTopics(const rosbag::Bag& bag) {
-  rosbag::View images(bag, rosbag::TypeQuery("sensor_msgs/Image"));
-  std::set<std::string> seen, depth;
-  const std::size_t topics = images.getConnections().size();
-  for (const rosbag::MessageInstance& message : images) {
-    if (!seen.insert(message.getTopic()).second) continue;
-    const auto image = message.instantiate<sensor_msgs::Image>();
-    const std::string& encoding = image->encoding;
-    if (encoding == "16UC1" || encoding == "32FC1") depth.insert(message.getTopic());
-    if (seen.size() == topics) break;
-  }
-  return depth;
-}
 
 std::string chooseTopic(const rosbag::Bag& bag, const std::string& wanted) {
   const std::set<std::string> topics = depthTopics(bag);
