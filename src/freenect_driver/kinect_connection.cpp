@@ -216,6 +216,12 @@ bool KinectConnection::setFlag(freenect_flag flag, bool value) {
          }) >= 0;
 }
 
+bool KinectConnection::setExposure(int time) {
+  const auto set = optionalFunctions().set_exposure;
+  if (set == nullptr) return false;
+  return call([&] { return lost_ ? kFailure : set(device_, time); }) >= 0;
+}
+
 int KinectConnection::call(std::function<int()> function) {
   std::packaged_task<int()> task(std::move(function));
   std::future<int> answer = task.get_future();

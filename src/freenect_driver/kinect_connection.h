@@ -58,6 +58,8 @@ class KinectConnection {
 
   /// @return false where this libfreenect or the device cannot.
   bool setFlag(freenect_flag flag, bool value);
+  /// The same for the colour camera's exposure. @param time [us]
+  bool setExposure(int time);
 
   /// What the device knows of its own depth.
   const DepthTables& tables() const { return tables_; }

@@ -20,13 +20,18 @@ struct CameraSettings {
   bool raw_disparity = false;       ///< depth as the sensor's raw disparity
   bool auto_exposure = true;        ///< of the colour camera
   bool auto_white_balance = true;   ///< of the colour camera
-  bool repeat = true;               ///< a recording begins again at its end
+  /// [us] of the colour camera while `auto_exposure` is off; 0: left as the device has it. Where
+  /// the device has a unit of its own, that one.
+  int exposure = 0;
+  int gain = 0;        ///< [-] the same, in the device's own unit
+  bool repeat = true;  ///< a recording begins again at its end
 
   bool operator==(const CameraSettings& other) const {
     return depth_mode == other.depth_mode && rgb_mode == other.rgb_mode &&
            ir_mode == other.ir_mode && depth_registration == other.depth_registration &&
            raw_disparity == other.raw_disparity && auto_exposure == other.auto_exposure &&
-           auto_white_balance == other.auto_white_balance && repeat == other.repeat;
+           auto_white_balance == other.auto_white_balance && exposure == other.exposure &&
+           gain == other.gain && repeat == other.repeat;
   }
   const VideoMode& mode(StreamKind kind) const {
     if (kind == StreamKind::kDepth) return depth_mode;
@@ -69,14 +74,19 @@ class CameraDevice {
   CameraSettings possible(CameraSettings settings) const;
   /// Everything but the modes, which `start` sets.
   /// @pre the depth stream has been stopped where `depth_registration` changes.
-  /// @return why the device does not do it after all; empty when it does.
-  std::string apply(const CameraSettings& settings);
+  /// @param settings that are possible; what the device does not do after all is taken out of them.
+  /// @return why it does not; empty when it does all of it.
+  std::string apply(CameraSettings& settings);
   /// @throw std::runtime_error with the device's reason.
   void start(StreamKind kind, const CameraSettings& settings);
 
  private:
   bool hasMode(StreamKind kind, const CameraSettings& settings) const;
   bool canRegister() const;
+  /// @return whether the colour camera has a property of OpenNI2's.
+  bool canSet(int property) const;
+  std::string applyRegistration(CameraSettings& settings);
+  std::string applyColour(CameraSettings& settings);
   const std::unique_ptr<SensorStream>& at(StreamKind kind) const {
     return streams_[static_cast<int>(kind)];
   }

@@ -167,11 +167,8 @@ void DeviceSession::connect(const std::string& uri) {
   for (StreamSupervisor& each : supervisors_) each.beginAnew();
   settings_ = camera_->possible(requested_);
   std::string refusal = camera_->refusal(requested_);
-  const std::string registration = camera_->apply(settings_);
-  if (!registration.empty()) {
-    settings_.depth_registration = false;
-    refusal += (refusal.empty() ? "" : "; ") + registration;
-  }
+  const std::string problem = camera_->apply(settings_);
+  if (!problem.empty()) refusal += (refusal.empty() ? "" : "; ") + problem;
   if (!refusal.empty()) {
     ROS_ERROR_STREAM("Refused settings of " << describe(camera_->description()) << ": " << refusal
                                             << "; what it does by itself is used.");
@@ -243,7 +240,7 @@ std::string DeviceSession::changeTo(const CameraSettings& settings) {
       supervisor(kind).tryAgain();
     }
     settings_ = with;
-    const std::string problem = camera_->apply(with);
+    const std::string problem = camera_->apply(settings_);
     if (problem.empty()) followDemand();
     return problem;
   };

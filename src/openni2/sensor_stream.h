@@ -78,6 +78,12 @@ class SensorStream {
 
   /// Does nothing where the device cannot.
   void setAutomatic(bool exposure, bool white_balance);
+  /// A property of OpenNI2's that is a whole number. @return whether the device has it.
+  bool canSet(int property) const { return stream_.isPropertySupported(property); }
+  /// @return whether the device has taken the value.
+  bool set(int property, int value) {
+    return stream_.setProperty(property, value) == openni::STATUS_OK;
+  }
 
  private:
   class Allocator;

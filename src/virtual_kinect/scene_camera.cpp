@@ -66,9 +66,13 @@ void SceneCamera::disparity(double scene_time, int width, int height, std::uint3
                  rawDisparity);
 }
 
-void SceneCamera::colour(double scene_time, int width, int height, std::uint8_t* pixels) const {
+void SceneCamera::colour(double scene_time, int width, int height, double brightness,
+                         std::uint8_t* pixels) const {
   const Rendering rendering = renderer(width, height).render(pose(scene_time, true), {false, true});
-  std::copy(rendering.colour.begin(), rendering.colour.end(), pixels);
+  constexpr double kWhite = 255.0;
+  std::transform(rendering.colour.begin(), rendering.colour.end(), pixels, [&](std::uint8_t value) {
+    return static_cast<std::uint8_t>(std::lround(std::min(brightness * value, kWhite)));
+  });
 }
 
 void SceneCamera::infrared(double scene_time, int width, int height, std::uint16_t* pixels) const {

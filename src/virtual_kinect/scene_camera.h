@@ -37,7 +37,9 @@ class SceneCamera {
   void disparity(double scene_time, int width, int height, std::uint32_t frame,
                  std::uint16_t* readings) const;
   /// Red, green and blue, from the colour camera's place.
-  void colour(double scene_time, int width, int height, std::uint8_t* pixels) const;
+  /// @param brightness [-] 1: as the scene has it.
+  void colour(double scene_time, int width, int height, double brightness,
+              std::uint8_t* pixels) const;
   /// Brightness in the infrared, 10 bits, from the depth camera's place.
   void infrared(double scene_time, int width, int height, std::uint16_t* pixels) const;
 

@@ -24,6 +24,7 @@ constexpr std::chrono::milliseconds kPeriod{33};
 struct Plugged {
   Kinect kinect;
   std::map<int, bool> flags;
+  int exposure = 0;
 };
 
 std::mutex mutex;  // of what follows
@@ -77,7 +78,7 @@ namespace freenect_double {
 
 void plug(const std::string& serial, const Kinect& kinect) {
   const std::lock_guard<std::mutex> lock(mutex);
-  plugged[serial] = {kinect, {}};
+  plugged[serial] = Plugged{kinect, {}, 0};
 }
 
 void unplug(const std::string& serial) {
@@ -93,6 +94,11 @@ void change(const std::string& serial, const Kinect& kinect) {
 std::map<int, bool> flags(const std::string& serial) {
   const std::lock_guard<std::mutex> lock(mutex);
   return plugged.at(serial).flags;
+}
+
+int exposure(const std::string& serial) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  return plugged.at(serial).exposure;
 }
 
 int open() {
@@ -221,6 +227,9 @@ int freenect_start_depth(freenect_device* device) {
 }
 int freenect_start_video(freenect_device* device) {
   device->video_runs = true;
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = plugged.find(device->serial);
+  if (found != plugged.end()) found->second.exposure = 0;  // it forgets
   return 0;
 }
 int freenect_stop_depth(freenect_device* device) {
@@ -284,6 +293,16 @@ int freenect_set_flag(freenect_device* device, freenect_flag flag, freenect_flag
   const auto found = plugged.find(device->serial);
   if (found == plugged.end()) return -1;
   found->second.flags[flag] = value == FREENECT_ON;
+  return 0;
+}
+
+// Of later versions than the header is.
+__attribute__((visibility("default"))) int freenect_set_exposure(freenect_device* device,
+                                                                 int time) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = plugged.find(device->serial);
+  if (found == plugged.end() || time > found->second.kinect.longest_exposure) return -1;
+  found->second.exposure = time;
   return 0;
 }
 

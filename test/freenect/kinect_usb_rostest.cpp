@@ -10,6 +10,8 @@
 #include "libfreenect.h"
 #include "openni2/camera_choice.h"
 #include "support/driver_test.h"
+#include "support/log_lines.h"
+#include "support/reconfigure.h"
 #include "support/ros_test.h"
 
 namespace dominant_plane_detection {
@@ -193,6 +195,32 @@ TEST_F(KinectUsb, ColourInBothSizesAndItsExposure) {
   EXPECT_EQ(images.last()->height, 1024U);
   flags = freenect_double::flags("A1");
   EXPECT_TRUE(flags.at(FREENECT_AUTO_EXPOSURE));
+}
+
+TEST_F(KinectUsb, ExposureIsSetAndGainIsRefused) {
+  Kinect kinect;
+  kinect.longest_exposure = 100000;
+  freenect_double::plug("A1", kinect);
+  ASSERT_TRUE(manager_.loadDriver("/camera", "A1", {{"exposure", "8000"}, {"gain", "7"}}));
+  LogLines log;
+  Listener<sensor_msgs::Image> images(node_, "rgb/image_raw");
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= 3; }));
+  EXPECT_EQ(freenect_double::exposure("A1"), 0) << "auto_exposure is on";
+  const std::string driver = "/camera/driver";
+  EXPECT_FALSE(change(driver, "auto_exposure", false));
+  EXPECT_EQ(freenect_double::exposure("A1"), 8000) << "[us]";
+  EXPECT_EQ(change(driver, "exposure", 30000), 30000);
+  EXPECT_EQ(freenect_double::exposure("A1"), 30000);
+  // The Kinect forgets it when the stream begins anew.
+  EXPECT_EQ(change(driver, "rgb_mode", std::string("1280x1024@10")), "1280x1024@10");
+  ASSERT_TRUE(spinUntil([&] { return images.last()->width == 1280; }));
+  EXPECT_EQ(freenect_double::exposure("A1"), 30000);
+
+  EXPECT_EQ(change(driver, "exposure", 150000), 30000) << "the device does not take it";
+  EXPECT_EQ(log.count("exposure: the camera refuses 150000: "), 1U);
+  EXPECT_EQ(freenect_double::exposure("A1"), 30000);
+  EXPECT_EQ(change(driver, "gain", 8), 7) << "a Kinect has none";
+  EXPECT_EQ(log.count("gain: the camera does not let it be set, got 8, expected 0"), 1U);
 }
 
 TEST_F(KinectUsb, AccelerometerInTheOpticalFrame) {
