@@ -47,6 +47,24 @@ std::optional<openni2_plugin::Acceleration> CameraDevice::acceleration() const {
   return status == openni::STATUS_OK ? std::make_optional(acceleration) : std::nullopt;
 }
 
+bool CameraDevice::hasMotor() const {
+  return device_->isPropertySupported(openni2_plugin::kTiltAngle);
+}
+
+std::optional<double> CameraDevice::tiltAngle() const {
+  double angle = 0.0;
+  const auto status = device_->getProperty(openni2_plugin::kTiltAngle, &angle);
+  return status == openni::STATUS_OK ? std::make_optional(angle) : std::nullopt;
+}
+
+bool CameraDevice::tilt(double angle) {
+  return device_->setProperty(openni2_plugin::kTiltAngle, angle) == openni::STATUS_OK;
+}
+
+bool CameraDevice::setLed(openni2_plugin::Led led) {
+  return device_->setProperty(openni2_plugin::kLed, led) == openni::STATUS_OK;
+}
+
 bool CameraDevice::canSet(int property) const {
   return has(StreamKind::kColour) && stream(StreamKind::kColour).canSet(property);
 }
@@ -69,14 +87,13 @@ std::string CameraDevice::refusal(const CameraSettings& settings) const {
   if (settings.depth_registration && !canRegister()) {
     return "depth_registration: the camera cannot register depth to colour";
   }
-  const auto unable = [&](const char* name, int property, int value) -> std::string {
-    if (value == 0 || canSet(property)) return "";
+  const auto unable = [](const char* name, bool able, int value) -> std::string {
+    if (value == 0 || able) return "";
     return std::string(name) + ": the camera does not let it be set, got " + std::to_string(value) +
            ", expected 0, which leaves it to the camera";
   };
-  const std::string problem =
-      unable("exposure", openni::STREAM_PROPERTY_EXPOSURE, settings.exposure);
-  return problem.empty() ? unable("gain", openni::STREAM_PROPERTY_GAIN, settings.gain) : problem;
+  const std::string problem = unable("exposure", hasExposure(), settings.exposure);
+  return problem.empty() ? unable("gain", hasGain(), settings.gain) : problem;
 }
 
 CameraSettings CameraDevice::possible(CameraSettings settings) const {
@@ -88,8 +105,8 @@ CameraSettings CameraDevice::possible(CameraSettings settings) const {
     }
   }
   settings.depth_registration = settings.depth_registration && canRegister();
-  if (!canSet(openni::STREAM_PROPERTY_EXPOSURE)) settings.exposure = 0;
-  if (!canSet(openni::STREAM_PROPERTY_GAIN)) settings.gain = 0;
+  if (!hasExposure()) settings.exposure = 0;
+  if (!hasGain()) settings.gain = 0;
   return settings;
 }
 

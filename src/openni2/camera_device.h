@@ -8,6 +8,7 @@
 #include "openni2/runtime.h"
 #include "openni2/sensor_stream.h"
 #include "openni2_plugin/accelerometer.h"
+#include "openni2_plugin/motor.h"
 
 namespace dominant_plane_detection {
 
@@ -67,6 +68,18 @@ class CameraDevice {
   /// Asks the device.
   /// @return nothing when it does not answer.
   std::optional<openni2_plugin::Acceleration> acceleration() const;
+
+  /// Whether exposure or gain of the colour camera can be set.
+  bool hasExposure() const { return canSet(openni::STREAM_PROPERTY_EXPOSURE); }
+  bool hasGain() const { return canSet(openni::STREAM_PROPERTY_GAIN); }
+
+  bool hasMotor() const;
+  /// Asks the device.
+  /// @return [rad] that the camera looks up; nothing when it does not tell, as while it moves.
+  std::optional<double> tiltAngle() const;
+  /// Begins to turn the camera. @return false when the device does not, as in `setLed`.
+  bool tilt(double angle);
+  bool setLed(openni2_plugin::Led led);
 
   /// @return why the camera cannot do what is asked, with what it can; empty when it can.
   std::string refusal(const CameraSettings& settings) const;

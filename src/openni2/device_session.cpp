@@ -12,7 +12,7 @@ namespace dominant_plane_detection {
 namespace {
 
 constexpr std::chrono::milliseconds kStep{100};    // between looks at the streams
-constexpr std::chrono::milliseconds kReading{33};  // between readings of the accelerometer
+constexpr std::chrono::milliseconds kReading{33};  // between readings of accelerometer and motor
 constexpr const char* kUnloading = "the driver is being unloaded";
 
 }  // namespace
@@ -46,10 +46,21 @@ void DeviceSession::want(StreamKind kind, bool wanted) {
   changed_.notify_all();
 }
 
-void DeviceSession::wantAcceleration(bool wanted) {
+void DeviceSession::wantAcceleration(bool wanted) { want(&Demand::acceleration, wanted); }
+
+void DeviceSession::wantTiltAngle(bool wanted) { want(&Demand::tilt_angle, wanted); }
+
+void DeviceSession::want(bool Demand::*reading, bool wanted) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (std::exchange(demand_.acceleration, wanted) == wanted) return;
+  if (std::exchange(demand_.*reading, wanted) == wanted) return;
   demand_changed_ = true;
+  changed_.notify_all();
+}
+
+void DeviceSession::order(const MotorOrders& orders) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (orders.tilt) orders_.tilt = orders.tilt;
+  if (orders.led) orders_.led = orders.led;
   changed_.notify_all();
 }
 
@@ -59,13 +70,21 @@ void DeviceSession::setPatience(double seconds) {
 }
 
 std::string DeviceSession::apply(const CameraSettings& settings) {
+  return ask([this, settings] { return changeTo(settings); });
+}
+
+std::string DeviceSession::reset() {
+  return ask([this] { return reopen(); });
+}
+
+std::string DeviceSession::ask(std::function<std::string()> change) {
   const std::lock_guard<std::mutex> one_at_a_time(applying_);
   std::future<std::string> answer;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (ending_) return kUnloading;
     change_.emplace();
-    change_->settings = settings;
+    change_->make = std::move(change);
     answer = change_->answer.get_future();
     changed_.notify_all();
   }
@@ -98,8 +117,10 @@ void DeviceSession::run() {
     }
     publishStatus();
     lock.lock();
-    changed_.wait_for(lock, demand_.acceleration ? kReading : kStep,
-                      [this] { return ending_ || demand_changed_ || unplugged_ || change_; });
+    changed_.wait_for(lock, demand_.acceleration || demand_.tilt_angle ? kReading : kStep, [this] {
+      return ending_ || demand_changed_ || unplugged_ || change_ ||
+             (status_.open && !orders_.empty());
+    });
   }
   if (change_) change_->answer.set_value(kUnloading);
   lock.unlock();
@@ -120,7 +141,17 @@ void DeviceSession::step() {
   } else if (!camera_ && search_now) {
     search();
   }
+  if (camera_) followOrders();
   if (camera_) followDemand();
+}
+
+void DeviceSession::followOrders() {
+  MotorOrders orders;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    orders = std::exchange(orders_, {});
+  }
+  motor_.follow(*camera_, orders);
 }
 
 void DeviceSession::search() {
@@ -188,13 +219,31 @@ void DeviceSession::connect(const std::string& uri) {
 void DeviceSession::disconnect(const std::string& why) {
   if (!camera_) return;
   ROS_WARN_STREAM("Lost " << describe(camera_->description()) << ": " << why << ".");
-  camera_.reset();
+  close("lost: " + why);
   const std::lock_guard<std::mutex> lock(mutex_);
-  open_uri_.clear();
   reconnect_.lost(Clock::now());
-  status_.open = false;
-  status_.problem = "lost: " + why;
-  status_.camera = CameraDescription();
+}
+
+/// @param problem why there is no camera then.
+void DeviceSession::close(const std::string& problem) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    open_uri_.clear();
+    status_.open = false;
+    status_.problem = problem;
+    status_.camera = CameraDescription();
+  }
+  camera_.reset();
+}
+
+std::string DeviceSession::reopen() {
+  if (camera_) {
+    ROS_INFO_STREAM("Closing " << describe(camera_->description())
+                               << " to open it again, as it was asked for.");
+    close("reset, as it was asked for");
+  }
+  search();
+  return camera_ ? "" : status().problem;
 }
 
 /// In OpenNI2's thread.
@@ -212,7 +261,7 @@ void DeviceSession::onDeviceEvent(const std::string& gone) {
 void DeviceSession::makeChange(Change& change) {
   std::string error;
   try {
-    error = changeTo(change.settings);
+    error = change.make();
   } catch (const std::exception& exception) {
     error = exception.what();
   }
@@ -281,13 +330,18 @@ void DeviceSession::followDemand() {
       return disconnect(each.status().text + ", and starting the stream anew did not help");
     }
   }
-  readAcceleration(demand);
+  read(demand);
 }
 
-void DeviceSession::readAcceleration(const Demand& demand) {
-  if (!demand.acceleration || !camera_->hasAccelerometer()) return;
-  const auto acceleration = camera_->acceleration();
-  if (acceleration) callbacks_.acceleration(*acceleration);
+void DeviceSession::read(const Demand& demand) {
+  if (demand.acceleration && camera_->hasAccelerometer()) {
+    const auto acceleration = camera_->acceleration();
+    if (acceleration) callbacks_.acceleration(*acceleration);
+  }
+  if (demand.tilt_angle && camera_->hasMotor()) {
+    const auto angle = camera_->tiltAngle();
+    if (angle) callbacks_.tilt_angle(*angle);
+  }
 }
 
 void DeviceSession::publishStatus() {

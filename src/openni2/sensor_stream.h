@@ -63,6 +63,9 @@ class SensorStream {
   /// @return [rad] as the device tells, 0 where it does not.
   double horizontalFieldOfView() const;
 
+  /// @return [m] from the depth camera to its projector, as the device tells; 0 where it does not.
+  double baseline() const;
+
   /// @param mode one of `modes()`.
   /// @param registered of the frames to come.
   /// @param raw disparity instead of millimetres.

@@ -100,7 +100,9 @@ const Renderer& SceneCamera::renderer(int width, int height) const {
 }
 
 Eigen::Isometry3d SceneCamera::pose(double scene_time, bool from_colour) const {
-  const Eigen::Isometry3d depth_camera = scene_.path.at(scene_time).pose();
+  // About the depth camera's x axis, which points to the right.
+  const Eigen::AngleAxisd tilt(tilt_, Eigen::Vector3d::UnitX());
+  const Eigen::Isometry3d depth_camera = scene_.path.at(scene_time).pose() * tilt;
   return from_colour ? depth_camera * Eigen::Translation3d(kColourOffset, 0.0, 0.0) : depth_camera;
 }
 

@@ -25,6 +25,7 @@ struct Plugged {
   Kinect kinect;
   std::map<int, bool> flags;
   int exposure = 0;
+  freenect_double::Motor motor;
 };
 
 std::mutex mutex;  // of what follows
@@ -78,7 +79,7 @@ namespace freenect_double {
 
 void plug(const std::string& serial, const Kinect& kinect) {
   const std::lock_guard<std::mutex> lock(mutex);
-  plugged[serial] = Plugged{kinect, {}, 0};
+  plugged[serial] = Plugged{kinect, {}, 0, {}};
 }
 
 void unplug(const std::string& serial) {
@@ -99,6 +100,16 @@ std::map<int, bool> flags(const std::string& serial) {
 int exposure(const std::string& serial) {
   const std::lock_guard<std::mutex> lock(mutex);
   return plugged.at(serial).exposure;
+}
+
+Motor motor(const std::string& serial) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  return plugged.at(serial).motor;
+}
+
+void setMotor(const std::string& serial, const Motor& motor) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  plugged.at(serial).motor = motor;
 }
 
 int open() {
@@ -265,6 +276,12 @@ int freenect_update_tilt_state(freenect_device* device) {
   device->tilt.accelerometer_x = counts(0);
   device->tilt.accelerometer_y = counts(1);
   device->tilt.accelerometer_z = counts(2);
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = plugged.find(device->serial);
+  if (found == plugged.end()) return -1;
+  const freenect_double::Motor& motor = found->second.motor;
+  device->tilt.tilt_angle =
+      motor.moves ? std::int8_t{-128} : static_cast<std::int8_t>(std::lround(2.0 * motor.degrees));
   return 0;
 }
 freenect_raw_tilt_state* freenect_get_tilt_state(freenect_device* device) { return &device->tilt; }
@@ -272,6 +289,22 @@ void freenect_get_mks_accel(freenect_raw_tilt_state* state, double* x, double* y
   *x = state->accelerometer_x * 9.80665 / FREENECT_COUNTS_PER_G;
   *y = state->accelerometer_y * 9.80665 / FREENECT_COUNTS_PER_G;
   *z = state->accelerometer_z * 9.80665 / FREENECT_COUNTS_PER_G;
+}
+
+double freenect_get_tilt_degs(freenect_raw_tilt_state* state) { return 0.5 * state->tilt_angle; }
+int freenect_set_tilt_degs(freenect_device* device, double angle) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = plugged.find(device->serial);
+  if (found == plugged.end()) return -1;
+  found->second.motor.degrees = angle;
+  return 0;
+}
+int freenect_set_led(freenect_device* device, freenect_led_options option) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = plugged.find(device->serial);
+  if (found == plugged.end()) return -1;
+  found->second.motor.led = option;
+  return 0;
 }
 
 int freenect_get_depth_mode_count() { return 1; }

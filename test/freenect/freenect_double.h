@@ -37,6 +37,14 @@ std::map<int, bool> flags(const std::string& serial);
 /// @return [us] what was set with freenect_set_exposure since the video stream was started; 0:
 /// nothing.
 int exposure(const std::string& serial);
+/// What was set of its motor and its light; kept when it is opened again.
+struct Motor {
+  double degrees = 0.0;
+  bool moves = false;  ///< it has no angle meanwhile
+  int led = -1;        ///< -1: never set
+};
+Motor motor(const std::string& serial);
+void setMotor(const std::string& serial, const Motor& motor);
 /// @return [#] of devices that are open, and of times that one was opened.
 int open();
 int opened();

@@ -5,6 +5,8 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
+#include <std_msgs/Float64.h>
+#include <std_msgs/UInt16.h>
 
 #include "freenect/freenect_double.h"
 #include "libfreenect.h"
@@ -243,6 +245,38 @@ TEST_F(KinectUsb, AccelerometerInTheOpticalFrame) {
   EXPECT_GT(imu.linear_acceleration_covariance[0], 0.0);
 }
 
+TEST_F(KinectUsb, ItsMotorIsMovedInDegreesAndTellsItsAngleInRadians) {
+  freenect_double::plug("A1");
+  ASSERT_TRUE(manager_.loadDriver("/camera", "A1"));
+  ros::Publisher tilt = node_.advertise<std_msgs::Float64>("tilt_angle", 1);
+  ros::Publisher led = node_.advertise<std_msgs::UInt16>("led_option", 1);
+  Listener<std_msgs::Float64> angles(node_, "cur_tilt_angle");
+  ASSERT_TRUE(spinUntil([&] {
+    return angles.size() >= 1 && tilt.getNumSubscribers() > 0 && led.getNumSubscribers() > 0;
+  }));
+  EXPECT_EQ(freenect_double::motor("A1").led, -1) << "nobody has asked for anything";
+  std_msgs::Float64 angle;
+  angle.data = -20.0 * M_PI / 180.0;
+  tilt.publish(angle);
+  EXPECT_TRUE(spinUntil([&] { return std::abs(angles.last()->data - angle.data) < 1e-9; }));
+  EXPECT_NEAR(freenect_double::motor("A1").degrees, -20.0, 1e-9);
+  std_msgs::UInt16 option;
+  option.data = LED_BLINK_RED_YELLOW;
+  led.publish(option);
+  EXPECT_TRUE(spinUntil([&] { return freenect_double::motor("A1").led == LED_BLINK_RED_YELLOW; }));
+  // While it moves it does not know its angle, and says -64 degrees.
+  freenect_double::Motor motor = freenect_double::motor("A1");
+  motor.moves = true;
+  freenect_double::setMotor("A1", motor);
+  Listener<sensor_msgs::Imu> readings(node_, "imu/data_raw");
+  ASSERT_TRUE(spinUntil([&] { return readings.size() >= 10; }));
+  motor.moves = false;
+  motor.degrees = 5.0;
+  freenect_double::setMotor("A1", motor);
+  ASSERT_TRUE(spinUntil([&] { return std::abs(angles.last()->data - 5.0 * M_PI / 180.0) < 1e-9; }));
+  for (const auto& message : angles.messages()) EXPECT_GT(message->data, -0.55);
+}
+
 TEST_F(KinectUsb, WithoutItsMotorACameraIsACameraStill) {
   Kinect kinect;
   kinect.has_motor = false;  // a later model without its audio firmware
@@ -250,8 +284,19 @@ TEST_F(KinectUsb, WithoutItsMotorACameraIsACameraStill) {
   ASSERT_TRUE(manager_.loadDriver("/camera", "A1"));
   Listener<sensor_msgs::Imu> readings(node_, "imu/data_raw");
   Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
-  ASSERT_TRUE(spinUntil([&] { return images.size() >= 30; }));
+  Listener<std_msgs::Float64> angles(node_, "cur_tilt_angle");
+  ros::Publisher led = node_.advertise<std_msgs::UInt16>("led_option", 1);
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= 3 && led.getNumSubscribers() > 0; }));
+  // It says so once.
+  LogLines log;
+  led.publish(std_msgs::UInt16());
+  EXPECT_TRUE(spinUntil([&] { return log.count("it has no motor and no light") == 1; }));
+  led.publish(std_msgs::UInt16());
+  const std::size_t more = images.size() + 30;
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= more; }));
+  EXPECT_EQ(log.count("it has no motor and no light"), 1U);
   EXPECT_EQ(readings.size(), 0U);
+  EXPECT_EQ(angles.size(), 0U);
 }
 
 TEST_F(KinectUsb, AStreamThatDoesNotStartIsTriedAgain) {

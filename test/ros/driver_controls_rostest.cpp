@@ -2,6 +2,9 @@
 
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <std_msgs/Float64.h>
+#include <std_msgs/UInt16.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +80,118 @@ TEST_F(DriverControls, AnExposureHoldsThoughTheCameraForgetsIt) {
   Images images(node_, "rgb/image_raw");
   ASSERT_TRUE(spinUntil([&] { return images.size() >= 1; }));
   EXPECT_TRUE(becomes(images, *automatic, 0.25));
+}
+
+/// @return what the message of a topic's type holds.
+template <typename Message, typename Value>
+Message holding(Value value) {
+  Message message;
+  message.data = value;
+  return message;
+}
+
+TEST_F(DriverControls, TheMotorTurnsTheCameraAndTellsItsAngle) {
+  const std::string uri = still("M1");
+  ASSERT_TRUE(manager_.loadDriver("/camera", uri));
+  ros::Publisher tilt = node_.advertise<std_msgs::Float64>("tilt_angle", 1);
+  Listener<std_msgs::Float64> angles(node_, "cur_tilt_angle");
+  Listener<sensor_msgs::Imu> readings(node_, "imu/data_raw");
+  ASSERT_TRUE(spinUntil(
+      [&] { return angles.size() >= 3 && readings.size() >= 3 && tilt.getNumSubscribers() > 0; }));
+  EXPECT_EQ(angles.last()->data, 0.0);
+  const auto down = [&] {
+    const auto& a = readings.last()->linear_acceleration;
+    return std::atan2(a.z, -a.y);
+  };
+  // The scene's camera looks down by 0.1 rad, so that up is behind it.
+  EXPECT_NEAR(down(), -0.1, 1e-9);
+  tilt.publish(holding<std_msgs::Float64>(0.3));
+  EXPECT_TRUE(spinUntil([&] { return angles.last()->data == 0.3; }));
+  EXPECT_TRUE(spinUntil([&] { return std::abs(down() - 0.2) < 1e-9; })) << down();
+  tilt.publish(holding<std_msgs::Float64>(-0.54));
+  EXPECT_TRUE(spinUntil([&] { return angles.last()->data == -0.54; }));
+
+  LogLines log;
+  for (const double refused : {0.55, 20.0, std::nan(""), HUGE_VAL}) {
+    const std::size_t before = log.count("expected -0.54 to 0.54 rad");
+    tilt.publish(holding<std_msgs::Float64>(refused));
+    EXPECT_TRUE(spinUntil([&] { return log.count("expected -0.54 to 0.54 rad") > before; }));
+  }
+  EXPECT_EQ(log.count("got 20. Were degrees meant? That would be 0.349066 rad"), 1U);
+  const std::size_t more = angles.size() + 3;
+  ASSERT_TRUE(spinUntil([&] { return angles.size() >= more; }));
+  EXPECT_EQ(angles.last()->data, -0.54);
+}
+
+/// Listening to it alone starts the depth stream.
+TEST_F(DriverControls, TheProjectorIsTheSecondCameraOfAStereoPair) {
+  ASSERT_TRUE(manager_.loadDriver("/camera", still("P1"), {{"depth_frame_id", "d"}}));
+  Listener<sensor_msgs::CameraInfo> projector(node_, "projector/camera_info");
+  ASSERT_TRUE(spinUntil([&] { return projector.size() >= 3; }));
+  Images images(node_, "depth/image_raw");
+  Listener<sensor_msgs::CameraInfo> infos(node_, "depth/camera_info");
+  const auto both = [&]() -> sensor_msgs::CameraInfoConstPtr {
+    for (const auto& info : infos.messages()) {
+      if (info->header.stamp == projector.last()->header.stamp) return info;
+    }
+    return nullptr;
+  };
+  ASSERT_TRUE(spinUntil([&] { return both() != nullptr; })) << "of one stamp";
+  const sensor_msgs::CameraInfo& right = *projector.last();
+  sensor_msgs::CameraInfo left = *both();
+  EXPECT_EQ(right.header.frame_id, "d");
+  EXPECT_NEAR(left.P[0], 580.0, 0.01);
+  left.P[3] = -0.075 * left.P[0];
+  EXPECT_EQ(right.P, left.P);
+  EXPECT_EQ(right.K, left.K);
+  EXPECT_EQ(right.R, left.R);
+  EXPECT_EQ(right.D, std::vector<double>(5, 0.0));
+  EXPECT_EQ(right.width, 640U);
+  EXPECT_EQ(right.height, 480U);
+}
+
+TEST_F(DriverControls, TheSceneIsSeenFromTheTiltedCamera) {
+  ASSERT_TRUE(manager_.loadDriver("/camera", still("M2")));
+  ros::Publisher tilt = node_.advertise<std_msgs::Float64>("tilt_angle", 1);
+  Images images(node_, "depth/image_raw");
+  ASSERT_TRUE(spinUntil([&] { return images.size() >= 3 && tilt.getNumSubscribers() > 0; }));
+  // [m] straight ahead: the wall's near side is at 2.95 m.
+  const auto ahead = [&] {
+    const auto& image = *images.last();
+    return 0.001 * *reinterpret_cast<const std::uint16_t*>(&image.data[240 * image.step + 2 * 600]);
+  };
+  const auto wall = [](double angle) {
+    const double row = (240 - 239.5) / 580.0;  // down
+    return 2.95 / (std::cos(angle) + row * std::sin(angle));
+  };
+  EXPECT_NEAR(ahead(), wall(-0.1), 0.001);
+  tilt.publish(holding<std_msgs::Float64>(0.1));
+  EXPECT_TRUE(spinUntil([&] { return std::abs(ahead() - wall(0.0)) < 0.001; })) << ahead();
+}
+
+TEST_F(DriverControls, TheLightShowsWhatIsAskedFor) {
+  const std::string uri = still("M3");
+  ASSERT_TRUE(manager_.loadDriver("/camera", uri));
+  ros::Publisher led = node_.advertise<std_msgs::UInt16>("led_option", 1);
+  ASSERT_TRUE(spinUntil([&] { return led.getNumSubscribers() > 0; }));
+  for (std::uint16_t option = 0; option <= 6; ++option) {
+    led.publish(holding<std_msgs::UInt16>(option));
+    EXPECT_TRUE(spinUntil([&] { return Probe(uri).led() == option; })) << option;
+  }
+  LogLines log;
+  led.publish(holding<std_msgs::UInt16>(std::uint16_t{7}));
+  EXPECT_TRUE(spinUntil([&] { return log.count("blinking red and yellow, got 7") == 1; }));
+  EXPECT_EQ(Probe(uri).led(), 6);
+}
+
+TEST_F(DriverControls, AnOrderWaitsForTheCamera) {
+  const std::string uri = still("M4") + "&slow=1";
+  ASSERT_TRUE(manager_.loadDriver("/camera", uri));
+  ros::Publisher tilt = node_.advertise<std_msgs::Float64>("tilt_angle", 1);
+  Listener<std_msgs::Float64> angles(node_, "cur_tilt_angle");
+  ASSERT_TRUE(spinUntil([&] { return tilt.getNumSubscribers() > 0; }));
+  tilt.publish(holding<std_msgs::Float64>(0.2));
+  EXPECT_TRUE(spinUntil([&] { return angles.size() >= 1 && angles.last()->data == 0.2; }));
 }
 
 }  // namespace
