@@ -77,7 +77,7 @@ void OpenNI2DriverNodelet::start() {
   callbacks.acceleration = [this](const openni2_plugin::Acceleration& acceleration) {
     onAcceleration(acceleration);
   };
-  callbacks.tilt_angle = [this](double angle) { motor_.publish(angle); };
+  callbacks.tilt_angle = [this](double angle) { onTiltAngle(angle); };
   serial_server_ =
       getNodeHandle().advertiseService("get_serial", &OpenNI2DriverNodelet::onGetSerial, this);
   const DriverParameters now = parameters();
@@ -148,6 +148,14 @@ void OpenNI2DriverNodelet::onAcceleration(const openni2_plugin::Acceleration& ac
     outputs_.publish(acceleration, ros::Time::now() + ros::Duration(parameters().time_offset));
   } catch (const std::exception& error) {
     NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped a reading: " << error.what());
+  }
+}
+
+void OpenNI2DriverNodelet::onTiltAngle(double angle) {
+  try {
+    motor_.publish(angle);
+  } catch (const std::exception& error) {
+    NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped the motor's angle: " << error.what());
   }
 }
 

@@ -26,8 +26,8 @@ namespace dominant_plane_detection {
 ///
 /// Which thread calls what: the nodelet's own callback queue the timer, listeners that come and go,
 /// orders to the motor, and get_serial, one after the other; a thread of each stream `onFrame`; the
-/// session's thread `onOpened`, `onAcceleration` and what publishes the motor's angle; a thread for
-/// what waits for the camera `onReconfigure` and `onReset`.
+/// session's thread `onOpened`, `onAcceleration` and `onTiltAngle`; a thread for what waits for the
+/// camera `onReconfigure` and `onReset`.
 class OpenNI2DriverNodelet : public PeriodicNodelet {
  public:
   ~OpenNI2DriverNodelet() override;
@@ -42,6 +42,7 @@ class OpenNI2DriverNodelet : public PeriodicNodelet {
   void onOpened(const CameraDevice& camera);
   void onReconfigure(OpenNI2DriverConfig& config);
   void onAcceleration(const openni2_plugin::Acceleration& acceleration);
+  void onTiltAngle(double angle);
   ros::Time stampOf(StreamKind kind, const SensorFrame& frame);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onGetSerial(GetSerial::Request& request, GetSerial::Response& response);

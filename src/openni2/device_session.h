@@ -18,6 +18,8 @@ namespace dominant_plane_detection {
 
 struct SessionStatus {
   bool open = false;                               ///< there is a camera
+  bool accelerometer = false;                      ///< which has one
+  bool motor = false;                              ///< which has one, and a light
   std::string problem;                             ///< why there is none
   CameraDescription camera;                        ///< empty without one
   int connections = 0;                             ///< [#] of times that a camera was opened
@@ -79,6 +81,7 @@ class DeviceSession {
 
  private:
   using Clock = ReconnectPolicy::Clock;
+  static constexpr const char* kUnloading = "the driver is being unloaded";
   /// What somebody waits for.
   struct Change {
     std::function<std::string()> make;  ///< in the session's thread

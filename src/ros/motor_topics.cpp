@@ -14,6 +14,7 @@ using openni2_plugin::kMostTilt;
 using openni2_plugin::Led;
 
 constexpr std::uint32_t kQueue = 1;  // only the newest order counts
+constexpr double kSilence = 1.0;     // [s] after what was refused, in the log
 constexpr double kDegree = M_PI / 180.0;
 
 }  // namespace
@@ -41,20 +42,21 @@ void MotorTopics::publish(double angle) const {
 void MotorTopics::onTilt(const std_msgs::Float64& message) const {
   const double angle = message.data;
   if (std::abs(angle) <= kMostTilt) return orders_.tilt(angle);
-  ROS_ERROR_STREAM("Refused " << tilt_.getTopic() << ": expected -" << kMostTilt << " to "
-                              << kMostTilt << " rad, got " << angle
-                              << ". Were degrees meant? That would be " << angle * kDegree
-                              << " rad.");
+  ROS_ERROR_STREAM_THROTTLE(kSilence, "Refused " << tilt_.getTopic() << ": expected -" << kMostTilt
+                                                 << " to " << kMostTilt << " rad, got " << angle
+                                                 << ". Were degrees meant? That would be "
+                                                 << angle * kDegree << " rad.");
 }
 
 void MotorTopics::onLed(const std_msgs::UInt16& message) const {
   if (message.data <= static_cast<int>(Led::kBlinkRedYellow)) {
     return orders_.led(static_cast<Led>(message.data));
   }
-  ROS_ERROR_STREAM("Refused " << led_.getTopic()
-                              << ": expected 0 off, 1 green, 2 red, 3 yellow, 4 or 5 blinking "
-                                 "green, 6 blinking red and yellow, got "
-                              << message.data << ".");
+  ROS_ERROR_STREAM_THROTTLE(
+      kSilence, "Refused " << led_.getTopic()
+                           << ": expected 0 off, 1 green, 2 red, 3 yellow, 4 or 5 blinking green, "
+                              "6 blinking red and yellow, got "
+                           << message.data << ".");
 }
 
 }  // namespace dominant_plane_detection

@@ -11,6 +11,7 @@
 #include "freenect/freenect_double.h"
 #include "libfreenect.h"
 #include "openni2/camera_choice.h"
+#include "support/diagnostics.h"
 #include "support/driver_test.h"
 #include "support/log_lines.h"
 #include "support/reconfigure.h"
@@ -297,6 +298,12 @@ TEST_F(KinectUsb, WithoutItsMotorACameraIsACameraStill) {
   EXPECT_EQ(log.count("it has no motor and no light"), 1U);
   EXPECT_EQ(readings.size(), 0U);
   EXPECT_EQ(angles.size(), 0U);
+  Diagnostics diagnostics(node_);
+  const auto told = [&](const char* key) {
+    return diagnostics.value("camera/driver: camera", key);
+  };
+  EXPECT_TRUE(
+      spinUntil([&] { return told("motor and light") == "no" && told("accelerometer") == "no"; }));
 }
 
 TEST_F(KinectUsb, AStreamThatDoesNotStartIsTriedAgain) {

@@ -156,6 +156,12 @@ class Processing(unittest.TestCase):
                 self.assertEqual(node.namespace, "/camera/", name)
                 self.assertEqual(node.args.split()[-1], "camera_nodelet_manager", name)
 
+    def test_depth_is_not_interpolated(self):
+        config = load("camera", processing="true")
+        for node in ("rectify_depth", "rectify_registered_depth"):
+            self.assertEqual(parameters(config, "/camera/" + node), {"interpolation": 0})
+        self.assertEqual(parameters(config, "/camera/rectify_color"), {})
+
     def test_a_recordings_manager_has_them_too(self):
         nodes = load("handheld", processing="true", device_id="/some.oni").nodes
         points, = [node for node in nodes if node.name == "depth_points"]
