@@ -21,7 +21,10 @@ constexpr double kDegree = M_PI / 180.0;
 
 void MotorTopics::advertise(ros::NodeHandle node, Orders orders,
                             const std::function<void()>& listeners_changed) {
+  // Messages may come before the subscribers are there.
   orders_ = std::move(orders);
+  tilt_topic_ = node.resolveName(topics::kTilt);
+  led_topic_ = node.resolveName(topics::kLed);
   const auto changed = [listeners_changed](const ros::SingleSubscriberPublisher&) {
     listeners_changed();
   };
@@ -42,7 +45,7 @@ void MotorTopics::publish(double angle) const {
 void MotorTopics::onTilt(const std_msgs::Float64& message) const {
   const double angle = message.data;
   if (std::abs(angle) <= kMostTilt) return orders_.tilt(angle);
-  ROS_ERROR_STREAM_THROTTLE(kSilence, "Refused " << tilt_.getTopic() << ": expected -" << kMostTilt
+  ROS_ERROR_STREAM_THROTTLE(kSilence, "Refused " << tilt_topic_ << ": expected -" << kMostTilt
                                                  << " to " << kMostTilt << " rad, got " << angle
                                                  << ". Were degrees meant? That would be "
                                                  << angle * kDegree << " rad.");
@@ -53,7 +56,7 @@ void MotorTopics::onLed(const std_msgs::UInt16& message) const {
     return orders_.led(static_cast<Led>(message.data));
   }
   ROS_ERROR_STREAM_THROTTLE(
-      kSilence, "Refused " << led_.getTopic()
+      kSilence, "Refused " << led_topic_
                            << ": expected 0 off, 1 green, 2 red, 3 yellow, 4 or 5 blinking green, "
                               "6 blinking red and yellow, got "
                            << message.data << ".");

@@ -5,6 +5,7 @@
 #include <std_msgs/UInt16.h>
 
 #include <functional>
+#include <string>
 
 #include "openni2_plugin/motor.h"
 
@@ -34,6 +35,7 @@ class MotorTopics {
 
   Orders orders_;
   ros::Publisher angle_;
+  std::string tilt_topic_, led_topic_;  ///< resolved
   ros::Subscriber tilt_, led_;
 };
 

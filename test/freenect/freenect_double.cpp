@@ -326,6 +326,7 @@ int freenect_set_flag(freenect_device* device, freenect_flag flag, freenect_flag
   const auto found = plugged.find(device->serial);
   if (found == plugged.end()) return -1;
   found->second.flags[flag] = value == FREENECT_ON;
+  if (flag == FREENECT_AUTO_EXPOSURE && value == FREENECT_ON) found->second.exposure = 0;
   return 0;
 }
 

@@ -34,8 +34,8 @@ void unplug(const std::string& serial);
 void change(const std::string& serial, const Kinect& kinect);
 /// @return what was set with freenect_set_flag, by flag.
 std::map<int, bool> flags(const std::string& serial);
-/// @return [us] what was set with freenect_set_exposure since the video stream was started; 0:
-/// nothing.
+/// @return [us] what freenect_set_exposure has set since the video stream was started or automatic
+/// exposure was turned on; 0: nothing.
 int exposure(const std::string& serial);
 /// What was set of its motor and its light; kept when it is opened again.
 struct Motor {

@@ -197,15 +197,5 @@ TEST_F(DriverControls, TheLightShowsWhatIsAskedFor) {
   EXPECT_EQ(Probe(uri).led(), 6);
 }
 
-TEST_F(DriverControls, AnOrderWaitsForTheCamera) {
-  const std::string uri = still("M4") + "&slow=1";
-  ASSERT_TRUE(manager_.loadDriver("/camera", uri));
-  ros::Publisher tilt = node_.advertise<std_msgs::Float64>("tilt_angle", 1);
-  Listener<std_msgs::Float64> angles(node_, "cur_tilt_angle");
-  ASSERT_TRUE(spinUntil([&] { return tilt.getNumSubscribers() > 0; }));
-  tilt.publish(holding<std_msgs::Float64>(0.2));
-  EXPECT_TRUE(spinUntil([&] { return angles.size() >= 1 && angles.last()->data == 0.2; }));
-}
-
 }  // namespace
 }  // namespace dominant_plane_detection
