@@ -19,7 +19,6 @@ class KinectStream : public openni2_plugin::PluginStream, private FrameSink {
  private:
   bool running() const override { return running_; }
   double focalLength(bool vertical) const override;
-  double baseline() const override { return 0.075; }  // as the Kinect's makers have it
   bool hasExposure() const override;
   bool onSetting() override;
   void* buffer() override;

@@ -1,7 +1,5 @@
 #include "openni2_plugin/plugin_stream.h"
 
-#include <PS1080.h>
-
 #include <cmath>
 
 #include "openni2_plugin/property.h"
@@ -40,9 +38,6 @@ OniStatus PluginStream::getProperty(int id, void* data, int* size) {
       return giveProperty(OniCropping{}, data, size);
     case ONI_STREAM_PROPERTY_MIRRORING:
       return giveProperty(OniBool{FALSE}, data, size);
-    case XN_STREAM_PROPERTY_EMITTER_DCMOS_DISTANCE:  // [cm]
-      return sensor_ == ONI_SENSOR_DEPTH ? giveProperty(100.0 * baseline(), data, size)
-                                         : ONI_STATUS_NOT_SUPPORTED;
     case ONI_STREAM_PROPERTY_AUTO_EXPOSURE:
       return giveProperty(auto_exposure_.load(), data, size);
     case ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE:

@@ -25,8 +25,6 @@ class PluginStream : public oni::driver::StreamBase {
   virtual bool running() const = 0;
   /// @return [px] in the present mode.
   virtual double focalLength(bool vertical) const = 0;
-  /// @return [m] from the depth camera to its projector.
-  virtual double baseline() const = 0;
   /// @return whether the device lets exposure or gain of its colour camera be set.
   virtual bool hasExposure() const { return false; }
   virtual bool hasGain() const { return false; }

@@ -28,7 +28,6 @@ class VirtualStream : public openni2_plugin::PluginStream {
   void render(double scene_time, std::uint32_t frame, OniFrame& to) const;
   bool running() const override { return thread_.joinable(); }
   double focalLength(bool vertical) const override;
-  double baseline() const override { return SensorNoise::kBaseline; }
   bool hasExposure() const override { return true; }
   bool hasGain() const override { return true; }
   double brightness() const;
