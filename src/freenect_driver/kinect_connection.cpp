@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 
@@ -11,6 +12,8 @@ namespace dominant_plane_detection::freenect_driver {
 namespace {
 
 constexpr int kFailure = -1;
+constexpr std::int8_t kNoAngle = -128;  // of a motor that moves
+constexpr double kDegree = M_PI / 180.0;
 constexpr int kInterrupted = -10;      // LIBUSB_ERROR_INTERRUPTED: by a signal, nothing is wrong
 constexpr suseconds_t kWait = 10'000;  // [us] for events, until tasks are looked at again
 
@@ -208,12 +211,43 @@ std::optional<openni2_plugin::Acceleration> KinectConnection::acceleration() {
   return openni2_plugin::Acceleration{-left, -up, forward};
 }
 
+std::optional<double> KinectConnection::tiltAngle() {
+  double degrees = 0.0;
+  const int status = call([&] {
+    if (lost_ || !motor_ || freenect_update_tilt_state(device_) < 0) return kFailure;
+    freenect_raw_tilt_state* const state = freenect_get_tilt_state(device_);
+    if (state == nullptr || state->tilt_angle == kNoAngle) return kFailure;
+    degrees = freenect_get_tilt_degs(state);
+    return 0;
+  });
+  return status == 0 ? std::make_optional(degrees * kDegree) : std::nullopt;
+}
+
+bool KinectConnection::tilt(double angle) {
+  return call([&] {
+           return lost_ || !motor_ ? kFailure : freenect_set_tilt_degs(device_, angle / kDegree);
+         }) >= 0;
+}
+
+bool KinectConnection::setLed(openni2_plugin::Led led) {
+  return call([&] {
+           const auto option = static_cast<freenect_led_options>(led);
+           return lost_ || !motor_ ? kFailure : freenect_set_led(device_, option);
+         }) >= 0;
+}
+
 bool KinectConnection::setFlag(freenect_flag flag, bool value) {
   const auto set = optionalFunctions().set_flag;
   if (set == nullptr) return false;
   return call([&] {
            return lost_ ? kFailure : set(device_, flag, value ? FREENECT_ON : FREENECT_OFF);
          }) >= 0;
+}
+
+bool KinectConnection::setExposure(int time) {
+  const auto set = optionalFunctions().set_exposure;
+  if (set == nullptr) return false;
+  return call([&] { return lost_ ? kFailure : set(device_, time); }) >= 0;
 }
 
 int KinectConnection::call(std::function<int()> function) {

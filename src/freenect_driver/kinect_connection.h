@@ -17,6 +17,7 @@
 #include "freenect_driver/kinect_bus.h"
 #include "freenect_driver/tick_clock.h"
 #include "openni2_plugin/accelerometer.h"
+#include "openni2_plugin/motor.h"
 
 namespace dominant_plane_detection::freenect_driver {
 
@@ -56,8 +57,19 @@ class KinectConnection {
   std::optional<openni2_plugin::Acceleration> acceleration();
   bool hasAccelerometer() const { return motor_; }
 
+  // The motor and the light.
+  bool hasMotor() const { return motor_; }
+  /// @return [rad] that the camera looks up from the horizon; nothing without a motor, when it does
+  /// not answer, and while it moves.
+  std::optional<double> tiltAngle();
+  /// Begins the motion. @return false where the device cannot, as in what follows.
+  bool tilt(double angle);
+  bool setLed(openni2_plugin::Led led);
+
   /// @return false where this libfreenect or the device cannot.
   bool setFlag(freenect_flag flag, bool value);
+  /// The same for the colour camera's exposure. @param time [us]
+  bool setExposure(int time);
 
   /// What the device knows of its own depth.
   const DepthTables& tables() const { return tables_; }

@@ -27,6 +27,10 @@ class KinectDevice : public openni2_plugin::PluginDevice {
   std::optional<openni2_plugin::Acceleration> acceleration() override {
     return connection_.acceleration();
   }
+  bool hasMotor() const override { return connection_.hasMotor(); }
+  std::optional<double> tiltAngle() override { return connection_.tiltAngle(); }
+  bool tilt(double angle) override { return connection_.tilt(angle); }
+  bool setLed(openni2_plugin::Led led) override { return connection_.setLed(led); }
 
   KinectConnection connection_;
 };

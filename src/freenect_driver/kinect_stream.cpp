@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "freenect_driver/optional_functions.h"
+
 namespace dominant_plane_detection::freenect_driver {
 namespace {
 
@@ -43,7 +45,7 @@ bool KinectStream::startCamera() {
   }
   if (!connection.startVideo(FREENECT_VIDEO_RGB, resolution, *this)) return false;
   // The camera forgets them when it stops.
-  setFlags();
+  setSettings();
   return true;
 }
 
@@ -92,13 +94,17 @@ void KinectStream::convert(std::uint16_t* readings) {
   device_.registered() ? tables_.toRegistered(readings) : tables_.toMillimetres(readings);
 }
 
-void KinectStream::onSwitch() {
-  if (running_) setFlags();
-}
+bool KinectStream::hasExposure() const { return optionalFunctions().set_exposure != nullptr; }
 
-void KinectStream::setFlags() {
-  device_.connection().setFlag(FREENECT_AUTO_EXPOSURE, autoExposure());
-  device_.connection().setFlag(FREENECT_AUTO_WHITE_BALANCE, autoWhiteBalance());
+bool KinectStream::onSetting() { return !running_ || setSettings(); }
+
+bool KinectStream::setSettings() {
+  KinectConnection& connection = device_.connection();
+  connection.setFlag(FREENECT_AUTO_EXPOSURE, autoExposure());
+  connection.setFlag(FREENECT_AUTO_WHITE_BALANCE, autoWhiteBalance());
+  if (autoExposure() || exposure() <= 0 || connection.setExposure(exposure())) return true;
+  device_.explain("libfreenect does not set the exposure");
+  return false;
 }
 
 double KinectStream::focalLength(bool /*vertical*/) const {

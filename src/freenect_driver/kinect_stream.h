@@ -19,13 +19,15 @@ class KinectStream : public openni2_plugin::PluginStream, private FrameSink {
  private:
   bool running() const override { return running_; }
   double focalLength(bool vertical) const override;
-  void onSwitch() override;
+  bool hasExposure() const override;
+  bool onSetting() override;
   void* buffer() override;
   void finished(std::uint64_t time) override;
 
   bool startCamera();
   void releaseFrame();
-  void setFlags();
+  /// @return whether the device has taken an exposure, where one is to be set.
+  bool setSettings();
   void convert(std::uint16_t* readings);
 
   KinectDevice& device_;

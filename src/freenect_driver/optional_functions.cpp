@@ -24,6 +24,7 @@ OptionalFunctions findAll() {
   find(library, "freenect_free_device_attributes", functions.free_device_attributes);
   find(library, "freenect_enabled_subdevices", functions.enabled_subdevices);
   find(library, "freenect_set_flag", functions.set_flag);
+  find(library, "freenect_set_exposure", functions.set_exposure);
   find(library, "freenect_copy_registration", functions.copy_registration);
   find(library, "freenect_destroy_registration", functions.destroy_registration);
   return functions;

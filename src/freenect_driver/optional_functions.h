@@ -12,6 +12,8 @@ struct OptionalFunctions {
   decltype(&::freenect_free_device_attributes) free_device_attributes = nullptr;
   decltype(&::freenect_enabled_subdevices) enabled_subdevices = nullptr;
   decltype(&::freenect_set_flag) set_flag = nullptr;
+  /// Of later versions than 0.5.3, whose header does not have it either.
+  int (*set_exposure)(freenect_device*, int microseconds) = nullptr;
   decltype(&::freenect_copy_registration) copy_registration = nullptr;
   decltype(&::freenect_destroy_registration) destroy_registration = nullptr;
 };

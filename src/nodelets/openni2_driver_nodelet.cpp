@@ -53,7 +53,7 @@ OpenNI2DriverNodelet::~OpenNI2DriverNodelet() {
   // The session before the rest: whoever waits for the camera to follow parameters is answered, and
   // no image is published from here on.
   if (session_) session_->end();
-  if (reconfigure_spinner_) reconfigure_spinner_->stop();
+  if (waiting_spinner_) waiting_spinner_->stop();
 }
 
 void OpenNI2DriverNodelet::onTimer() {
@@ -77,23 +77,35 @@ void OpenNI2DriverNodelet::start() {
   callbacks.acceleration = [this](const openni2_plugin::Acceleration& acceleration) {
     onAcceleration(acceleration);
   };
+  callbacks.tilt_angle = [this](double angle) { onTiltAngle(angle); };
   serial_server_ =
       getNodeHandle().advertiseService("get_serial", &OpenNI2DriverNodelet::onGetSerial, this);
   const DriverParameters now = parameters();
   session_ = std::make_unique<DeviceSession>(readDeviceId(private_node), now.camera,
                                              now.watchdog_timeout, std::move(callbacks));
+  offerMotor();
   offerParameters();
 }
 
-/// In a queue of their own, as a camera may take its time to follow them.
+void OpenNI2DriverNodelet::offerMotor() {
+  MotorTopics::Orders orders;
+  orders.tilt = [this](double angle) { session_->order({angle, std::nullopt}); };
+  orders.led = [this](openni2_plugin::Led led) { session_->order({std::nullopt, led}); };
+  motor_.advertise(getNodeHandle(), std::move(orders), [this] { followListeners(); });
+}
+
+/// In a queue of their own, with the reset, as a camera may take its time.
 void OpenNI2DriverNodelet::offerParameters() {
   ros::NodeHandle own(getPrivateNodeHandle());
-  own.setCallbackQueue(&reconfigure_queue_);
+  own.setCallbackQueue(&waiting_queue_);
   reconfigure_ = std::make_unique<dynamic_reconfigure::Server<OpenNI2DriverConfig>>(own);
   reconfigure_->setCallback(
       [this](OpenNI2DriverConfig& config, std::uint32_t) { onReconfigure(config); });
-  reconfigure_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &reconfigure_queue_);
-  reconfigure_spinner_->start();
+  ros::NodeHandle node(getNodeHandle());
+  node.setCallbackQueue(&waiting_queue_);
+  reset_server_ = node.advertiseService("reset", &OpenNI2DriverNodelet::onReset, this);
+  waiting_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &waiting_queue_);
+  waiting_spinner_->start();
 }
 
 void OpenNI2DriverNodelet::followListeners() {
@@ -104,6 +116,7 @@ void OpenNI2DriverNodelet::followListeners() {
     session_->want(kind, wanted);
   }
   session_->wantAcceleration(outputs_.wantsImu());
+  session_->wantTiltAngle(motor_.wanted());
 }
 
 void OpenNI2DriverNodelet::onFrame(StreamKind kind, const SensorFrame& frame) {
@@ -138,6 +151,14 @@ void OpenNI2DriverNodelet::onAcceleration(const openni2_plugin::Acceleration& ac
   }
 }
 
+void OpenNI2DriverNodelet::onTiltAngle(double angle) {
+  try {
+    motor_.publish(angle);
+  } catch (const std::exception& error) {
+    NODELET_ERROR_STREAM_THROTTLE(5.0, "Dropped the motor's angle: " << error.what());
+  }
+}
+
 void OpenNI2DriverNodelet::onOpened(const CameraDevice& camera) {
   outputs_.setCamera(camera);
   diagnostics_->beginNumbers();
@@ -163,6 +184,15 @@ void OpenNI2DriverNodelet::onReconfigure(OpenNI2DriverConfig& config) {
   if (error.empty()) return;
   NODELET_ERROR_STREAM("Refused parameters, the old ones stay: " << error << ".");
   config = toConfig<OpenNI2DriverConfig>(old);  // goes back to whoever asked
+}
+
+bool OpenNI2DriverNodelet::onReset(std_srvs::Trigger::Request& /*request*/,
+                                   std_srvs::Trigger::Response& response) {
+  const std::string problem = session_->reset();
+  response.success = static_cast<std::uint8_t>(problem.empty());
+  response.message = problem.empty() ? "opened " + describe(session_->status().camera)
+                                     : "no camera is open: " + problem;
+  return true;
 }
 
 bool OpenNI2DriverNodelet::onGetSerial(GetSerial::Request& /*request*/,

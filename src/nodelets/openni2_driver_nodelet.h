@@ -5,6 +5,7 @@
 #include <dynamic_reconfigure/server.h>
 #include <ros/callback_queue.h>
 #include <ros/spinner.h>
+#include <std_srvs/Trigger.h>
 
 #include <memory>
 #include <mutex>
@@ -16,6 +17,7 @@
 #include "ros/driver_diagnostics.h"
 #include "ros/driver_outputs.h"
 #include "ros/driver_parameters.h"
+#include "ros/motor_topics.h"
 
 namespace dominant_plane_detection {
 
@@ -23,9 +25,9 @@ namespace dominant_plane_detection {
 /// camera's driver wrote; streams run while somebody listens.
 ///
 /// Which thread calls what: the nodelet's own callback queue the timer, listeners that come and go,
-/// and get_serial, one after the other; a thread of each stream `onFrame`; the session's thread
-/// `onOpened` and `onAcceleration`; a thread for parameters `onReconfigure`, which waits for the
-/// camera.
+/// orders to the motor, and get_serial, one after the other; a thread of each stream `onFrame`; the
+/// session's thread `onOpened`, `onAcceleration` and `onTiltAngle`; a thread for what waits for the
+/// camera `onReconfigure` and `onReset`.
 class OpenNI2DriverNodelet : public PeriodicNodelet {
  public:
   ~OpenNI2DriverNodelet() override;
@@ -33,13 +35,16 @@ class OpenNI2DriverNodelet : public PeriodicNodelet {
  private:
   void start() override;
   void onTimer() override;
+  void offerMotor();
   void offerParameters();
   void followListeners();
   void onFrame(StreamKind kind, const SensorFrame& frame);
   void onOpened(const CameraDevice& camera);
   void onReconfigure(OpenNI2DriverConfig& config);
   void onAcceleration(const openni2_plugin::Acceleration& acceleration);
+  void onTiltAngle(double angle);
   ros::Time stampOf(StreamKind kind, const SensorFrame& frame);
+  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onGetSerial(GetSerial::Request& request, GetSerial::Response& response);
   DriverParameters parameters() const;
   void setParameters(const DriverParameters& parameters);
@@ -52,10 +57,12 @@ class OpenNI2DriverNodelet : public PeriodicNodelet {
   DriverOutputs outputs_;
   std::unique_ptr<DriverDiagnostics> diagnostics_;
   std::unique_ptr<DeviceSession> session_;
+  MotorTopics motor_;  ///< gives the session orders: goes before it
   ros::ServiceServer serial_server_;
-  ros::CallbackQueue reconfigure_queue_;
+  ros::CallbackQueue waiting_queue_;
+  ros::ServiceServer reset_server_;
   std::unique_ptr<dynamic_reconfigure::Server<OpenNI2DriverConfig>> reconfigure_;
-  std::unique_ptr<ros::AsyncSpinner> reconfigure_spinner_;
+  std::unique_ptr<ros::AsyncSpinner> waiting_spinner_;
 };
 
 }  // namespace dominant_plane_detection

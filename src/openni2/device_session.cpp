@@ -12,8 +12,7 @@ namespace dominant_plane_detection {
 namespace {
 
 constexpr std::chrono::milliseconds kStep{100};    // between looks at the streams
-constexpr std::chrono::milliseconds kReading{33};  // between readings of the accelerometer
-constexpr const char* kUnloading = "the driver is being unloaded";
+constexpr std::chrono::milliseconds kReading{33};  // between readings of accelerometer and motor
 
 }  // namespace
 
@@ -46,30 +45,27 @@ void DeviceSession::want(StreamKind kind, bool wanted) {
   changed_.notify_all();
 }
 
-void DeviceSession::wantAcceleration(bool wanted) {
+void DeviceSession::wantAcceleration(bool wanted) { want(&Demand::acceleration, wanted); }
+
+void DeviceSession::wantTiltAngle(bool wanted) { want(&Demand::tilt_angle, wanted); }
+
+void DeviceSession::want(bool Demand::*reading, bool wanted) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (std::exchange(demand_.acceleration, wanted) == wanted) return;
+  if (std::exchange(demand_.*reading, wanted) == wanted) return;
   demand_changed_ = true;
+  changed_.notify_all();
+}
+
+void DeviceSession::order(const MotorOrders& orders) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (orders.tilt) orders_.tilt = orders.tilt;
+  if (orders.led) orders_.led = orders.led;
   changed_.notify_all();
 }
 
 void DeviceSession::setPatience(double seconds) {
   const std::lock_guard<std::mutex> lock(mutex_);
   demand_.patience = seconds;
-}
-
-std::string DeviceSession::apply(const CameraSettings& settings) {
-  const std::lock_guard<std::mutex> one_at_a_time(applying_);
-  std::future<std::string> answer;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (ending_) return kUnloading;
-    change_.emplace();
-    change_->settings = settings;
-    answer = change_->answer.get_future();
-    changed_.notify_all();
-  }
-  return answer.get();
 }
 
 SessionStatus DeviceSession::status() const {
@@ -98,8 +94,10 @@ void DeviceSession::run() {
     }
     publishStatus();
     lock.lock();
-    changed_.wait_for(lock, demand_.acceleration ? kReading : kStep,
-                      [this] { return ending_ || demand_changed_ || unplugged_ || change_; });
+    changed_.wait_for(lock, demand_.acceleration || demand_.tilt_angle ? kReading : kStep, [this] {
+      return ending_ || demand_changed_ || unplugged_ || change_ ||
+             (status_.open && !orders_.empty());
+    });
   }
   if (change_) change_->answer.set_value(kUnloading);
   lock.unlock();
@@ -120,7 +118,17 @@ void DeviceSession::step() {
   } else if (!camera_ && search_now) {
     search();
   }
+  if (camera_) followOrders();
   if (camera_) followDemand();
+}
+
+void DeviceSession::followOrders() {
+  MotorOrders orders;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    orders = std::exchange(orders_, {});
+  }
+  motor_.follow(*camera_, orders);
 }
 
 void DeviceSession::search() {
@@ -167,21 +175,21 @@ void DeviceSession::connect(const std::string& uri) {
   for (StreamSupervisor& each : supervisors_) each.beginAnew();
   settings_ = camera_->possible(requested_);
   std::string refusal = camera_->refusal(requested_);
-  const std::string registration = camera_->apply(settings_);
-  if (!registration.empty()) {
-    settings_.depth_registration = false;
-    refusal += (refusal.empty() ? "" : "; ") + registration;
-  }
+  const std::string problem = camera_->apply(settings_);
+  if (!problem.empty()) refusal += (refusal.empty() ? "" : "; ") + problem;
   if (!refusal.empty()) {
     ROS_ERROR_STREAM("Refused settings of " << describe(camera_->description()) << ": " << refusal
                                             << "; what it does by itself is used.");
   }
   callbacks_.opened(*camera_);
+  const bool accelerometer = camera_->hasAccelerometer(), motor = camera_->hasMotor();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     reconnect_.opened(Clock::now());
     status_.open = true;
     status_.problem.clear();
+    status_.accelerometer = accelerometer;
+    status_.motor = motor;
     status_.camera = camera_->description();
     ++status_.connections;
   }
@@ -191,13 +199,21 @@ void DeviceSession::connect(const std::string& uri) {
 void DeviceSession::disconnect(const std::string& why) {
   if (!camera_) return;
   ROS_WARN_STREAM("Lost " << describe(camera_->description()) << ": " << why << ".");
-  camera_.reset();
+  close("lost: " + why);
   const std::lock_guard<std::mutex> lock(mutex_);
-  open_uri_.clear();
   reconnect_.lost(Clock::now());
-  status_.open = false;
-  status_.problem = "lost: " + why;
-  status_.camera = CameraDescription();
+}
+
+/// @param problem why there is no camera then.
+void DeviceSession::close(const std::string& problem) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    open_uri_.clear();
+    status_.open = status_.accelerometer = status_.motor = false;
+    status_.problem = problem;
+    status_.camera = CameraDescription();
+  }
+  camera_.reset();
 }
 
 /// In OpenNI2's thread.
@@ -210,56 +226,6 @@ void DeviceSession::onDeviceEvent(const std::string& gone) {
     unplugged_ = true;
   }
   changed_.notify_all();
-}
-
-void DeviceSession::makeChange(Change& change) {
-  std::string error;
-  try {
-    error = changeTo(change.settings);
-  } catch (const std::exception& exception) {
-    error = exception.what();
-  }
-  change.answer.set_value(error);
-}
-
-std::string DeviceSession::changeTo(const CameraSettings& settings) {
-  if (!camera_) {
-    requested_ = settings;
-    return "";
-  }
-  // What it could not do before, and does not have to do now, refuses nothing else.
-  std::string refusal = camera_->refusal(settings);
-  if (!refusal.empty() && refusal != camera_->refusal(requested_)) return refusal;
-  const CameraSettings old = settings_;
-  const bool other_depth = old.depth_registration != settings.depth_registration ||
-                           old.raw_disparity != settings.raw_disparity;
-  const auto changes = [&](StreamKind kind) {
-    return !(old.mode(kind) == settings.mode(kind)) || (other_depth && kind == StreamKind::kDepth);
-  };
-  const auto restartWith = [&](const CameraSettings& with) {
-    for (const StreamKind kind : kAllStreams) {
-      if (!changes(kind)) continue;
-      if (camera_->has(kind)) camera_->stream(kind).stop();
-      supervisor(kind).tryAgain();
-    }
-    settings_ = with;
-    const std::string problem = camera_->apply(with);
-    if (problem.empty()) followDemand();
-    return problem;
-  };
-  refusal = restartWith(camera_->possible(settings));
-  if (!camera_) return "the camera was lost meanwhile";
-  for (const StreamKind kind : kAllStreams) {
-    const StreamStatus& status = supervisor(kind).status();
-    const bool failed = camera_->has(kind) && changes(kind) && status.state == StreamState::kFailed;
-    if (refusal.empty() && failed) refusal = status.text;
-  }
-  if (refusal.empty()) {
-    requested_ = settings;
-  } else {
-    restartWith(old);
-  }
-  return refusal;
 }
 
 /// @return whether another stream of the camera runs, and is not silent yet.
@@ -284,13 +250,18 @@ void DeviceSession::followDemand() {
       return disconnect(each.status().text + ", and starting the stream anew did not help");
     }
   }
-  readAcceleration(demand);
+  read(demand);
 }
 
-void DeviceSession::readAcceleration(const Demand& demand) {
-  if (!demand.acceleration || !camera_->hasAccelerometer()) return;
-  const auto acceleration = camera_->acceleration();
-  if (acceleration) callbacks_.acceleration(*acceleration);
+void DeviceSession::read(const Demand& demand) {
+  if (demand.acceleration && camera_->hasAccelerometer()) {
+    const auto acceleration = camera_->acceleration();
+    if (acceleration) callbacks_.acceleration(*acceleration);
+  }
+  if (demand.tilt_angle && camera_->hasMotor()) {
+    const auto angle = camera_->tiltAngle();
+    if (angle) callbacks_.tilt_angle(*angle);
+  }
 }
 
 void DeviceSession::publishStatus() {

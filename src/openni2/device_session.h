@@ -10,6 +10,7 @@
 #include <string>
 
 #include "openni2/camera_device.h"
+#include "openni2/motor_control.h"
 #include "openni2/reconnect_policy.h"
 #include "openni2/stream_supervisor.h"
 
@@ -17,6 +18,8 @@ namespace dominant_plane_detection {
 
 struct SessionStatus {
   bool open = false;                               ///< there is a camera
+  bool accelerometer = false;                      ///< which has one
+  bool motor = false;                              ///< which has one, and a light
   std::string problem;                             ///< why there is none
   CameraDescription camera;                        ///< empty without one
   int connections = 0;                             ///< [#] of times that a camera was opened
@@ -39,6 +42,8 @@ class DeviceSession {
     std::function<void(const CameraDevice&)> opened;
     /// In the session's thread, while it is wanted and the camera has an accelerometer.
     std::function<void(const openni2_plugin::Acceleration&)> acceleration;
+    /// The same of its motor: [rad] that the camera looks up.
+    std::function<void(double)> tilt_angle;
   };
 
   /// @param device_id see `chooseCamera`.
@@ -57,24 +62,36 @@ class DeviceSession {
   void want(StreamKind kind, bool wanted);
   /// The same for readings of the accelerometer, thirty a second where the camera is so fast.
   void wantAcceleration(bool wanted);
+  /// The same for the motor's angle.
+  void wantTiltAngle(bool wanted);
+  /// The camera's motor and light are to do something, now or when there is a camera. Returns at
+  /// once.
+  void order(const MotorOrders& orders);
   /// Waits until the camera has followed, or refused.
   /// @return why the settings were refused and the old ones stay; empty when they hold. Without a
   /// camera they hold until one comes.
   std::string apply(const CameraSettings& settings);
   void setPatience(double seconds);
+  /// Closes the camera, opens it again, or looks for one where there is none, and waits for that.
+  /// Streams that are wanted run on.
+  /// @return why there is no camera now; empty when it is open.
+  std::string reset();
 
   SessionStatus status() const;
 
  private:
   using Clock = ReconnectPolicy::Clock;
+  static constexpr const char* kUnloading = "the driver is being unloaded";
+  /// What somebody waits for.
   struct Change {
-    CameraSettings settings;
+    std::function<std::string()> make;  ///< in the session's thread
     std::promise<std::string> answer;
   };
   /// What is wanted of a camera.
   struct Demand {
     std::array<bool, kStreamKinds> streams{};
     bool acceleration = false;
+    bool tilt_angle = false;
     double patience = 0.0;  ///< [s]
   };
 
@@ -83,10 +100,15 @@ class DeviceSession {
   void search();
   void connect(const std::string& uri);
   void disconnect(const std::string& why);
-  void makeChange(Change& change);
+  void close(const std::string& problem);
+  std::string ask(std::function<std::string()> change);
+  static void makeChange(Change& change);
+  std::string reopen();
   std::string changeTo(const CameraSettings& settings);
+  void followOrders();
   void followDemand();
-  void readAcceleration(const Demand& demand);
+  void want(bool Demand::*reading, bool wanted);
+  void read(const Demand& demand);
   bool othersRun(StreamKind kind, double patience) const;
   void onDeviceEvent(const std::string& gone);
   void publishStatus();
@@ -109,6 +131,7 @@ class DeviceSession {
                                                           StreamSupervisor(StreamKind::kInfrared)};
   std::string serial_;        ///< of the camera that was found first
   std::string last_problem_;  ///< of the search, that the log has
+  MotorControl motor_;
 
   std::mutex applying_;       ///< held by whoever waits for an answer
   mutable std::mutex mutex_;  ///< of what follows; never held while anything else is called
@@ -120,6 +143,7 @@ class DeviceSession {
   ReconnectPolicy reconnect_;
   Demand demand_;
   std::optional<Change> change_;
+  MotorOrders orders_;  ///< that wait; the newest of a kind
   SessionStatus status_;
 
   std::future<void> running_;

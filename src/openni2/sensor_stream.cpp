@@ -1,5 +1,6 @@
 #include "openni2/sensor_stream.h"
 
+#include <PS1080.h>
 #include <ros/console.h>
 #include <sensor_msgs/image_encodings.h>
 
@@ -135,6 +136,13 @@ VideoMode SensorStream::mode() const { return toMode(stream_.getVideoMode()); }
 
 double SensorStream::horizontalFieldOfView() const {
   return static_cast<double>(stream_.getHorizontalFieldOfView());
+}
+
+double SensorStream::baseline() const {
+  double centimetres = 0.0;
+  const bool told = stream_.getProperty(XN_STREAM_PROPERTY_EMITTER_DCMOS_DISTANCE, &centimetres) ==
+                    openni::STATUS_OK;
+  return told ? 0.01 * centimetres : 0.0;
 }
 
 void SensorStream::setMode(const VideoMode& mode, bool raw) {

@@ -63,6 +63,9 @@ class SensorStream {
   /// @return [rad] as the device tells, 0 where it does not.
   double horizontalFieldOfView() const;
 
+  /// @return [m] from the depth camera to its projector, as the device tells; 0 where it does not.
+  double baseline() const;
+
   /// @param mode one of `modes()`.
   /// @param registered of the frames to come.
   /// @param raw disparity instead of millimetres.
@@ -78,6 +81,12 @@ class SensorStream {
 
   /// Does nothing where the device cannot.
   void setAutomatic(bool exposure, bool white_balance);
+  /// A property of OpenNI2's that is a whole number. @return whether the device has it.
+  bool canSet(int property) const { return stream_.isPropertySupported(property); }
+  /// @return whether the device has taken the value.
+  bool set(int property, int value) {
+    return stream_.setProperty(property, value) == openni::STATUS_OK;
+  }
 
  private:
   class Allocator;

@@ -1,5 +1,7 @@
 #include "openni2_plugin/plugin_device.h"
 
+#include <cmath>
+
 #include "openni2_plugin/property.h"
 
 namespace dominant_plane_detection::openni2_plugin {
@@ -28,13 +30,32 @@ OniStatus PluginDevice::getProperty(int id, void* data, int* size) {
         registered_ ? ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR : ONI_IMAGE_REGISTRATION_OFF, data,
         size);
   }
+  if (id == kTiltAngle && hasMotor()) {
+    const auto angle = tiltAngle();
+    return angle ? giveProperty(*angle, data, size) : ONI_STATUS_ERROR;
+  }
   if (id != kAcceleration || !hasAccelerometer()) return ONI_STATUS_NOT_SUPPORTED;
   const auto reading = acceleration();
   return reading ? giveProperty(*reading, data, size) : ONI_STATUS_ERROR;
 }
 
 OniStatus PluginDevice::setProperty(int id, const void* data, int size) {
-  if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION) return ONI_STATUS_NOT_SUPPORTED;
+  if (id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION) return setRegistration(data, size);
+  const bool motor = id == kTiltAngle || id == kLed;
+  return motor && hasMotor() ? setMotor(id, data, size) : ONI_STATUS_NOT_SUPPORTED;
+}
+
+OniStatus PluginDevice::setMotor(int id, const void* data, int size) {
+  double angle = 0.0;
+  Led led = Led::kOff;
+  const OniStatus status =
+      id == kTiltAngle ? takeProperty(angle, data, size) : takeProperty(led, data, size);
+  if (status != ONI_STATUS_OK) return status;
+  if (id == kTiltAngle && !(std::abs(angle) <= kMostTilt)) return ONI_STATUS_BAD_PARAMETER;
+  return (id == kTiltAngle ? tilt(angle) : setLed(led)) ? ONI_STATUS_OK : ONI_STATUS_ERROR;
+}
+
+OniStatus PluginDevice::setRegistration(const void* data, int size) {
   OniImageRegistrationMode mode = ONI_IMAGE_REGISTRATION_OFF;
   const OniStatus status = takeProperty(mode, data, size);
   if (status != ONI_STATUS_OK) return status;
@@ -45,6 +66,7 @@ OniStatus PluginDevice::setProperty(int id, const void* data, int size) {
 
 OniBool PluginDevice::isPropertySupported(int id) {
   if (id == kAcceleration) return hasAccelerometer() ? TRUE : FALSE;
+  if (id == kTiltAngle || id == kLed) return hasMotor() ? TRUE : FALSE;
   return id == ONI_DEVICE_PROPERTY_SERIAL_NUMBER || id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION;
 }
 

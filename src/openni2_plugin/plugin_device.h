@@ -11,11 +11,12 @@
 
 #include "openni2_plugin/accelerometer.h"
 #include "openni2_plugin/driver_api.h"
+#include "openni2_plugin/motor.h"
 
 namespace dominant_plane_detection::openni2_plugin {
 
 /// What the devices of this package's plug-ins share: sensors, serial number, registration,
-/// accelerometer, and that colour and infrared do not stream together.
+/// accelerometer, motor, and that colour and infrared do not stream together.
 class PluginDevice : public oni::driver::DeviceBase {
  public:
   /// @param explain tells OpenNI2 why a call fails.
@@ -47,7 +48,18 @@ class PluginDevice : public oni::driver::DeviceBase {
   /// @return nothing when the device does not answer.
   virtual std::optional<Acceleration> acceleration() = 0;
 
+  /// @return whether it has a motor and a light.
+  virtual bool hasMotor() const = 0;
+  /// @return [rad] see kTiltAngle; nothing when the device does not answer.
+  virtual std::optional<double> tiltAngle() = 0;
+  /// @return false when the device does not do it.
+  virtual bool tilt(double angle) = 0;
+  virtual bool setLed(Led led) = 0;
+
  private:
+  OniStatus setRegistration(const void* data, int size);
+  OniStatus setMotor(int id, const void* data, int size);
+
   std::string serial_;
   std::function<void(const std::string& text)> explain_;
   std::deque<std::vector<OniVideoMode>> modes_;  ///< OpenNI2 keeps pointers into it

@@ -39,9 +39,13 @@ OniStatus PluginStream::getProperty(int id, void* data, int* size) {
     case ONI_STREAM_PROPERTY_MIRRORING:
       return giveProperty(OniBool{FALSE}, data, size);
     case ONI_STREAM_PROPERTY_AUTO_EXPOSURE:
-      return giveProperty(auto_exposure_, data, size);
+      return giveProperty(auto_exposure_.load(), data, size);
     case ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE:
-      return giveProperty(auto_white_balance_, data, size);
+      return giveProperty(auto_white_balance_.load(), data, size);
+    case ONI_STREAM_PROPERTY_EXPOSURE:
+      return hasSetting(id) ? giveProperty(exposure(), data, size) : ONI_STATUS_NOT_SUPPORTED;
+    case ONI_STREAM_PROPERTY_GAIN:
+      return hasSetting(id) ? giveProperty(gain(), data, size) : ONI_STATUS_NOT_SUPPORTED;
     default:
       return ONI_STATUS_NOT_SUPPORTED;
   }
@@ -57,9 +61,13 @@ OniStatus PluginStream::setProperty(int id, const void* data, int size) {
       return status == ONI_STATUS_OK && mirrored != FALSE ? ONI_STATUS_NOT_SUPPORTED : status;
     }
     case ONI_STREAM_PROPERTY_AUTO_EXPOSURE:
-      return setSwitch(auto_exposure_, data, size);
+      return setSetting(auto_exposure_, id, data, size);
     case ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE:
-      return setSwitch(auto_white_balance_, data, size);
+      return setSetting(auto_white_balance_, id, data, size);
+    case ONI_STREAM_PROPERTY_EXPOSURE:
+      return setSetting(exposure_, id, data, size);
+    case ONI_STREAM_PROPERTY_GAIN:
+      return setSetting(gain_, id, data, size);
     default:
       return ONI_STATUS_NOT_SUPPORTED;
   }
@@ -78,18 +86,32 @@ OniStatus PluginStream::setMode(const void* data, int size) {
   return ONI_STATUS_NOT_SUPPORTED;
 }
 
-OniStatus PluginStream::setSwitch(OniBool& value, const void* data, int size) {
-  if (sensor_ != ONI_SENSOR_COLOR) return ONI_STATUS_NOT_SUPPORTED;
+OniStatus PluginStream::setSetting(std::atomic<int>& setting, int id, const void* data, int size) {
+  if (!hasSetting(id)) return ONI_STATUS_NOT_SUPPORTED;
+  int value = 0;
   const OniStatus status = takeProperty(value, data, size);
-  if (status == ONI_STATUS_OK) onSwitch();
-  return status;
+  if (status != ONI_STATUS_OK) return status;
+  const int old = setting.exchange(value);
+  if (onSetting()) return ONI_STATUS_OK;
+  setting = old;
+  return ONI_STATUS_ERROR;
+}
+
+void PluginStream::forgetExposure() {
+  exposure_ = 0;
+  gain_ = kUnitGain;
+}
+
+bool PluginStream::hasSetting(int id) const {
+  if (sensor_ != ONI_SENSOR_COLOR) return false;
+  if (id == ONI_STREAM_PROPERTY_EXPOSURE) return hasExposure();
+  if (id == ONI_STREAM_PROPERTY_GAIN) return hasGain();
+  return id == ONI_STREAM_PROPERTY_AUTO_EXPOSURE || id == ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE;
 }
 
 OniBool PluginStream::isPropertySupported(int id) {
-  const bool colour =
-      id == ONI_STREAM_PROPERTY_AUTO_EXPOSURE || id == ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE;
-  return colour ? sensor_ == ONI_SENSOR_COLOR
-                : id >= ONI_STREAM_PROPERTY_CROPPING && id <= ONI_STREAM_PROPERTY_MIRRORING;
+  return hasSetting(id) ||
+         (id >= ONI_STREAM_PROPERTY_CROPPING && id <= ONI_STREAM_PROPERTY_MIRRORING);
 }
 
 void PluginStream::describe(int index, std::uint64_t timestamp, OniFrame& frame) const {

@@ -100,6 +100,8 @@ void DriverDiagnostics::reportCamera(diagnostic_updater::DiagnosticStatusWrapper
   report.add("uri", status_.camera.uri);
   report.add("name", status_.camera.vendor + " " + status_.camera.name);
   report.add("serial number", status_.camera.serial);
+  report.add("accelerometer", status_.accelerometer ? "yes" : "no");
+  report.add("motor and light", status_.motor ? "yes" : "no");
   report.add("times opened", status_.connections);
   report.add("silent streams started anew", restarts);
 }

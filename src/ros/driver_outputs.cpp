@@ -2,6 +2,7 @@
 
 #include <sensor_msgs/Imu.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 
 #include "ros/topic_names.h"
@@ -10,6 +11,7 @@ namespace dominant_plane_detection {
 namespace {
 
 constexpr std::uint32_t kQueue = 1;
+constexpr double kPrimeSenseBaseline = 0.075;  // [m] of a Kinect and its relatives
 // [m/s^2] A Kinect's accelerometer tells the vertical to one degree (Kinect for Windows SDK).
 constexpr double kAccelerationSigma = 0.17;
 
@@ -31,6 +33,8 @@ void DriverOutputs::advertise(const ros::NodeHandle& node, const DriverNames& na
   ros::NodeHandle plain = node;
   disparity_ = plain.advertise<sensor_msgs::Image>(topics::kRawDisparity, kQueue, info_changed,
                                                    info_changed);
+  projector_ = plain.advertise<sensor_msgs::CameraInfo>(topics::kProjector, kQueue, info_changed,
+                                                        info_changed);
   imu_ = plain.advertise<sensor_msgs::Imu>(topics::kImu, kQueue, info_changed, info_changed);
   const auto advertise = [&](const char* topic) {
     return transport.advertiseCamera(topic, kQueue, image_changed, image_changed, info_changed,
@@ -49,10 +53,14 @@ void DriverOutputs::advertise(const ros::NodeHandle& node, const DriverNames& na
 bool DriverOutputs::wants(StreamKind kind) const {
   const std::uint32_t listeners = streams_[static_cast<int>(kind)].getNumSubscribers();
   if (listeners > 0 || kind != StreamKind::kDepth) return listeners > 0;
-  return registered_.getNumSubscribers() > 0 || wantsRawDisparity();
+  return registered_.getNumSubscribers() > 0 || projector_.getNumSubscribers() > 0 ||
+         wantsRawDisparity();
 }
 
 void DriverOutputs::setCamera(const CameraDevice& camera) {
+  const double told =
+      camera.has(StreamKind::kDepth) ? camera.stream(StreamKind::kDepth).baseline() : 0.0;
+  baseline_ = told > 0.0 ? told : kPrimeSenseBaseline;
   for (const StreamKind kind : kAllStreams) {
     if (!camera.has(kind)) continue;
     calibration(kind).setCamera(camera.description().serial,
@@ -68,8 +76,23 @@ void DriverOutputs::publish(StreamKind kind, bool registered, const sensor_msgs:
   const auto info = boost::make_shared<sensor_msgs::CameraInfo>(
       cameraInfo(in_colour ? StreamKind::kColour : kind, image->width, image->height));
   info->header = image->header;
+  if (kind == StreamKind::kDepth) publishProjector(*image);
   const auto& publisher = registered ? registered_ : streams_[static_cast<int>(kind)];
   publisher.publish(image, info);
+}
+
+/// The depth camera's pinhole with the projector beside it, as openni_camera has it: what the right
+/// camera of a stereo pair would be. The projector stands to the right of the depth camera,
+/// whatever camera the image has been registered to.
+void DriverOutputs::publishProjector(const sensor_msgs::Image& depth) {
+  if (projector_.getNumSubscribers() == 0) return;
+  const auto info = boost::make_shared<sensor_msgs::CameraInfo>(
+      cameraInfo(StreamKind::kDepth, depth.width, depth.height));
+  info->header.stamp = depth.header.stamp;
+  info->header.frame_id = names_.depth_frame_id;
+  std::fill(info->D.begin(), info->D.end(), 0.0);
+  info->P[3] = -info->P[0] * baseline_;
+  projector_.publish(info);
 }
 
 /// Depth is seen by the infrared camera, some pixels off: who has calibrated that one has

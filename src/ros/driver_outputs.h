@@ -3,6 +3,7 @@
 #include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -51,6 +52,7 @@ class DriverOutputs {
   void publish(const openni2_plugin::Acceleration& acceleration, const ros::Time& stamp);
 
  private:
+  void publishProjector(const sensor_msgs::Image& depth);
   sensor_msgs::CameraInfo cameraInfo(StreamKind kind, std::uint32_t width, std::uint32_t height);
   CameraCalibration& calibration(StreamKind kind) { return *calibrations_[static_cast<int>(kind)]; }
 
@@ -59,7 +61,9 @@ class DriverOutputs {
   image_transport::CameraPublisher streams_[kStreamKinds];
   image_transport::CameraPublisher registered_;
   ros::Publisher disparity_;
+  ros::Publisher projector_;
   ros::Publisher imu_;
+  std::atomic<double> baseline_{0.0};  ///< [m] from the depth camera to its projector
 };
 
 }  // namespace dominant_plane_detection

@@ -34,6 +34,12 @@ void visitParameters(ParametersT& parameters, Visitor&& visit) {
         p.camera.raw_disparity);
   visit(Info{"auto_exposure", "-", 0, 1, "the colour camera chooses its exposure"},
         p.camera.auto_exposure);
+  visit(Info{"exposure", "us", 0, 200000,
+             "of the colour camera while auto_exposure is off; 0: as the camera has it"},
+        p.camera.exposure);
+  visit(Info{"gain", "-", 0, 65535,
+             "of the colour camera while auto_exposure is off, in its own unit; 0: as it has it"},
+        p.camera.gain);
   visit(Info{"auto_white_balance", "-", 0, 1, "the colour camera chooses its white balance"},
         p.camera.auto_white_balance);
   visit(Info{"repeat", "-", 0, 1, "a recording (.oni) begins again at its end"}, p.camera.repeat);

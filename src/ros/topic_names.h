@@ -9,6 +9,12 @@ constexpr const char* kColour = "rgb/image_raw";
 constexpr const char* kInfrared = "ir/image_raw";
 constexpr const char* kRawDisparity = "depth/disparity_raw";
 constexpr const char* kImu = "imu/data_raw";  // REP 145: without an orientation
+constexpr const char* kTiltNow = "cur_tilt_angle";
+constexpr const char* kProjector = "projector/camera_info";
+
+// Inputs of the driver, relative to its namespace.
+constexpr const char* kTilt = "tilt_angle";
+constexpr const char* kLed = "led_option";
 
 // More inputs of the detection, relative to its namespace.
 constexpr const char* kPoints = "points";

@@ -32,6 +32,9 @@ void show(const std::shared_ptr<OpenNi2Runtime>& runtime, const std::string& num
     }
   }
   if (camera.hasAccelerometer()) std::cout << "    accelerometer\n";
+  if (camera.hasMotor()) std::cout << "    motor and light\n";
+  if (camera.hasExposure()) std::cout << "    exposure can be set\n";
+  if (camera.hasGain()) std::cout << "    gain can be set\n";
 }
 
 int run(const std::vector<std::string>& ids) {

@@ -66,9 +66,13 @@ void SceneCamera::disparity(double scene_time, int width, int height, std::uint3
                  rawDisparity);
 }
 
-void SceneCamera::colour(double scene_time, int width, int height, std::uint8_t* pixels) const {
+void SceneCamera::colour(double scene_time, int width, int height, double brightness,
+                         std::uint8_t* pixels) const {
   const Rendering rendering = renderer(width, height).render(pose(scene_time, true), {false, true});
-  std::copy(rendering.colour.begin(), rendering.colour.end(), pixels);
+  constexpr double kWhite = 255.0;
+  std::transform(rendering.colour.begin(), rendering.colour.end(), pixels, [&](std::uint8_t value) {
+    return static_cast<std::uint8_t>(std::lround(std::min(brightness * value, kWhite)));
+  });
 }
 
 void SceneCamera::infrared(double scene_time, int width, int height, std::uint16_t* pixels) const {
@@ -96,7 +100,9 @@ const Renderer& SceneCamera::renderer(int width, int height) const {
 }
 
 Eigen::Isometry3d SceneCamera::pose(double scene_time, bool from_colour) const {
-  const Eigen::Isometry3d depth_camera = scene_.path.at(scene_time).pose();
+  // About the depth camera's x axis, which points to the right.
+  const Eigen::AngleAxisd tilt(tilt_, Eigen::Vector3d::UnitX());
+  const Eigen::Isometry3d depth_camera = scene_.path.at(scene_time).pose() * tilt;
   return from_colour ? depth_camera * Eigen::Translation3d(kColourOffset, 0.0, 0.0) : depth_camera;
 }
 

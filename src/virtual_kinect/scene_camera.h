@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -26,6 +27,11 @@ class SceneCamera {
   /// @return [s] on the scene's camera path.
   double sceneTime(double time) const;
 
+  /// The camera looks up by an angle from where its path has it, from now on. From any thread.
+  /// @param angle [rad]
+  void setTilt(double angle) { tilt_ = angle; }
+  double tilt() const { return tilt_; }
+
   /// @return what an accelerometer in the depth camera shows, which feels gravity alone.
   openni2_plugin::Acceleration acceleration(double scene_time) const;
 
@@ -37,7 +43,9 @@ class SceneCamera {
   void disparity(double scene_time, int width, int height, std::uint32_t frame,
                  std::uint16_t* readings) const;
   /// Red, green and blue, from the colour camera's place.
-  void colour(double scene_time, int width, int height, std::uint8_t* pixels) const;
+  /// @param brightness [-] 1: as the scene has it.
+  void colour(double scene_time, int width, int height, double brightness,
+              std::uint8_t* pixels) const;
   /// Brightness in the infrared, 10 bits, from the depth camera's place.
   void infrared(double scene_time, int width, int height, std::uint16_t* pixels) const;
 
@@ -46,7 +54,8 @@ class SceneCamera {
   Eigen::Isometry3d pose(double scene_time, bool from_colour) const;
 
   Scene scene_;
-  mutable std::mutex mutex_;  ///< streams of both resolutions may begin at the same time
+  std::atomic<double> tilt_{0.0};  ///< [rad]
+  mutable std::mutex mutex_;       ///< streams of both resolutions may begin at the same time
   mutable std::map<std::pair<int, int>, std::unique_ptr<Renderer>> renderers_;
 };
 

@@ -7,6 +7,7 @@
 
 namespace dominant_plane_detection::virtual_kinect {
 
+using openni2_plugin::giveProperty;
 using openni2_plugin::takeProperty;
 
 namespace {
@@ -47,7 +48,9 @@ oni::driver::StreamBase* VirtualDevice::createStream(OniSensorType sensor) {
 }
 
 OniStatus VirtualDevice::getProperty(int id, void* data, int* size) {
-  return id == kFrameRecords ? copyRecords(data, size) : PluginDevice::getProperty(id, data, size);
+  if (id == kFrameRecords) return copyRecords(data, size);
+  if (id == openni2_plugin::kLed) return giveProperty(led_.load(), data, size);
+  return PluginDevice::getProperty(id, data, size);
 }
 
 OniStatus VirtualDevice::setProperty(int id, const void* data, int size) {
@@ -66,6 +69,16 @@ OniBool VirtualDevice::isPropertySupported(int id) {
 
 std::optional<openni2_plugin::Acceleration> VirtualDevice::acceleration() {
   return camera_.acceleration(sceneTime(DeviceClock::Steady::now()));
+}
+
+bool VirtualDevice::tilt(double angle) {
+  camera_.setTilt(angle);
+  return true;
+}
+
+bool VirtualDevice::setLed(openni2_plugin::Led led) {
+  led_ = led;
+  return true;
 }
 
 OniStatus VirtualDevice::invoke(int command, void* data, int size) {

@@ -60,6 +60,10 @@ class VirtualDevice : public openni2_plugin::PluginDevice {
   bool canRegister() const override { return true; }
   bool hasAccelerometer() const override { return true; }
   std::optional<openni2_plugin::Acceleration> acceleration() override;
+  bool hasMotor() const override { return true; }
+  std::optional<double> tiltAngle() override { return camera_.tilt(); }
+  bool tilt(double angle) override;
+  bool setLed(openni2_plugin::Led led) override;
   OniStatus copyRecords(void* data, int* size) const;
 
   VirtualUri uri_;
@@ -69,6 +73,7 @@ class VirtualDevice : public openni2_plugin::PluginDevice {
   Driver driver_;
   std::atomic<bool> gone_{false};
   std::atomic<int> stalls_{0};
+  std::atomic<openni2_plugin::Led> led_{openni2_plugin::Led::kBlinkGreen};
   std::atomic<int> refused_{0};  ///< sensor whose streams do not start; 0: none
   mutable std::mutex mutex_;     ///< of what follows
   std::deque<FrameRecord> records_;

@@ -32,6 +32,9 @@ constexpr int kDrift = 0x6b76'0005;
 /// Command: `std::int32_t`, an OniSensorType, whose streams do not start from now on.
 constexpr int kRefuseStart = 0x6b76'0006;
 
+/// [us] that the colour camera exposes by itself, at a gain of 100. An image is as bright as both
+/// are large, and white at most.
+constexpr int kAutomaticExposure = 20000;
 /// [m] the colour camera stands to the right of the depth camera, as on a Kinect v1.
 constexpr double kColourOffset = 0.025;
 

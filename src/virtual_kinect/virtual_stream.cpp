@@ -25,6 +25,7 @@ OniStatus VirtualStream::start() {
     return ONI_STATUS_ERROR;
   }
   if (!device_.beginStreaming(sensor())) return ONI_STATUS_OUT_OF_FLOW;
+  forgetExposure();  // as cameras may that are started
   stopping_ = false;
   thread_ = std::thread([this] { run(); });
   return ONI_STATUS_OK;
@@ -88,7 +89,7 @@ void VirtualStream::render(double scene_time, std::uint32_t frame, OniFrame& to)
   const int height = mode().resolutionY;
   auto* readings = static_cast<std::uint16_t*>(to.data);
   if (sensor() == ONI_SENSOR_COLOR) {
-    camera.colour(scene_time, width, height, static_cast<std::uint8_t*>(to.data));
+    camera.colour(scene_time, width, height, brightness(), static_cast<std::uint8_t*>(to.data));
   } else if (sensor() == ONI_SENSOR_IR) {
     camera.infrared(scene_time, width, height, readings);
   } else if (mode().pixelFormat == ONI_PIXEL_FORMAT_SHIFT_9_2) {
@@ -96,6 +97,14 @@ void VirtualStream::render(double scene_time, std::uint32_t frame, OniFrame& to)
   } else {
     camera.depth(scene_time, device_.registered(), width, height, frame, readings);
   }
+}
+
+/// @return [-] of an image in relation to one with automatic exposure.
+double VirtualStream::brightness() const {
+  if (autoExposure()) return 1.0;
+  const double by_time =
+      exposure() > 0 ? static_cast<double>(exposure()) / kAutomaticExposure : 1.0;
+  return by_time * gain() / openni2_plugin::kUnitGain;
 }
 
 double VirtualStream::focalLength(bool vertical) const {

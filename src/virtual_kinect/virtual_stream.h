@@ -28,6 +28,9 @@ class VirtualStream : public openni2_plugin::PluginStream {
   void render(double scene_time, std::uint32_t frame, OniFrame& to) const;
   bool running() const override { return thread_.joinable(); }
   double focalLength(bool vertical) const override;
+  bool hasExposure() const override { return true; }
+  bool hasGain() const override { return true; }
+  double brightness() const;
 
   VirtualDevice& device_;
   std::mutex mutex_;

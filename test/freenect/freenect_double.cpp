@@ -24,6 +24,8 @@ constexpr std::chrono::milliseconds kPeriod{33};
 struct Plugged {
   Kinect kinect;
   std::map<int, bool> flags;
+  int exposure = 0;
+  freenect_double::Motor motor;
 };
 
 std::mutex mutex;  // of what follows
@@ -77,7 +79,7 @@ namespace freenect_double {
 
 void plug(const std::string& serial, const Kinect& kinect) {
   const std::lock_guard<std::mutex> lock(mutex);
-  plugged[serial] = {kinect, {}};
+  plugged[serial] = Plugged{kinect, {}, 0, {}};
 }
 
 void unplug(const std::string& serial) {
@@ -93,6 +95,21 @@ void change(const std::string& serial, const Kinect& kinect) {
 std::map<int, bool> flags(const std::string& serial) {
   const std::lock_guard<std::mutex> lock(mutex);
   return plugged.at(serial).flags;
+}
+
+int exposure(const std::string& serial) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  return plugged.at(serial).exposure;
+}
+
+Motor motor(const std::string& serial) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  return plugged.at(serial).motor;
+}
+
+void setMotor(const std::string& serial, const Motor& motor) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  plugged.at(serial).motor = motor;
 }
 
 int open() {
@@ -221,6 +238,9 @@ int freenect_start_depth(freenect_device* device) {
 }
 int freenect_start_video(freenect_device* device) {
   device->video_runs = true;
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = plugged.find(device->serial);
+  if (found != plugged.end()) found->second.exposure = 0;  // it forgets
   return 0;
 }
 int freenect_stop_depth(freenect_device* device) {
@@ -256,6 +276,12 @@ int freenect_update_tilt_state(freenect_device* device) {
   device->tilt.accelerometer_x = counts(0);
   device->tilt.accelerometer_y = counts(1);
   device->tilt.accelerometer_z = counts(2);
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = plugged.find(device->serial);
+  if (found == plugged.end()) return -1;
+  const freenect_double::Motor& motor = found->second.motor;
+  device->tilt.tilt_angle =
+      motor.moves ? std::int8_t{-128} : static_cast<std::int8_t>(std::lround(2.0 * motor.degrees));
   return 0;
 }
 freenect_raw_tilt_state* freenect_get_tilt_state(freenect_device* device) { return &device->tilt; }
@@ -263,6 +289,22 @@ void freenect_get_mks_accel(freenect_raw_tilt_state* state, double* x, double* y
   *x = state->accelerometer_x * 9.80665 / FREENECT_COUNTS_PER_G;
   *y = state->accelerometer_y * 9.80665 / FREENECT_COUNTS_PER_G;
   *z = state->accelerometer_z * 9.80665 / FREENECT_COUNTS_PER_G;
+}
+
+double freenect_get_tilt_degs(freenect_raw_tilt_state* state) { return 0.5 * state->tilt_angle; }
+int freenect_set_tilt_degs(freenect_device* device, double angle) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = plugged.find(device->serial);
+  if (found == plugged.end()) return -1;
+  found->second.motor.degrees = angle;
+  return 0;
+}
+int freenect_set_led(freenect_device* device, freenect_led_options option) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = plugged.find(device->serial);
+  if (found == plugged.end()) return -1;
+  found->second.motor.led = option;
+  return 0;
 }
 
 int freenect_get_depth_mode_count() { return 1; }
@@ -284,6 +326,17 @@ int freenect_set_flag(freenect_device* device, freenect_flag flag, freenect_flag
   const auto found = plugged.find(device->serial);
   if (found == plugged.end()) return -1;
   found->second.flags[flag] = value == FREENECT_ON;
+  if (flag == FREENECT_AUTO_EXPOSURE && value == FREENECT_ON) found->second.exposure = 0;
+  return 0;
+}
+
+// Of later versions than the header is.
+__attribute__((visibility("default"))) int freenect_set_exposure(freenect_device* device,
+                                                                 int time) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = plugged.find(device->serial);
+  if (found == plugged.end() || time > found->second.kinect.longest_exposure) return -1;
+  found->second.exposure = time;
   return 0;
 }
 

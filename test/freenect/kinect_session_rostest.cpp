@@ -34,7 +34,7 @@ struct Session {
       const Eigen::Vector3d felt = 9.80665 * truths.back().up;
       files.addAcceleration(1000.0 + time, {-felt.x(), -felt.y(), felt.z()});
       cv::Mat rgb(480, 640, CV_8UC3);
-      camera.colour(scene_time, 640, 480, rgb.data);
+      camera.colour(scene_time, 640, 480, 1.0, rgb.data);
       colours.push_back(rgb);
       files.addColour(1000.0 + time + 0.001, rgb);
       cv::Mat raw(480, 640, CV_16UC1);

@@ -1,47 +1,19 @@
 // Kinects that come, go and fail, through OpenNI2 and the plug-in, on a libfreenect without USB.
 
-#include <dominant_plane_detection/GetSerial.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
 
-#include "freenect/freenect_double.h"
+#include "freenect/kinect_usb.h"
 #include "libfreenect.h"
-#include "openni2/camera_choice.h"
-#include "support/driver_test.h"
-#include "support/ros_test.h"
 
 namespace dominant_plane_detection {
 namespace {
 
-using freenect_double::Kinect;
-
 std::uint16_t pixel(const sensor_msgs::Image& image, std::uint32_t u, std::uint32_t v) {
   return *reinterpret_cast<const std::uint16_t*>(&image.data[v * image.step + 2 * u]);
 }
-
-class KinectUsb : public testing::Test {
- protected:
-  ~KinectUsb() override {
-    for (const char* name : {"/camera/driver", "/other/driver"}) manager_.unload(name);
-    for (const char* serial : {"A1", "A2"}) freenect_double::unplug(serial);
-    // A nodelet may end in the thread that was its last, a moment after it was unloaded.
-    EXPECT_TRUE(spinUntil([] { return freenect_double::open() == 0; }));
-  }
-
-  static std::string serial(const std::string& ns = "/camera") {
-    GetSerial call;
-    return ros::service::call(ns + "/get_serial", call) ? call.response.serial : "";
-  }
-  static bool listed(const std::string& serial) {
-    const auto cameras = OpenNi2Runtime::instance()->cameras();
-    return !chooseCamera(serial, cameras).uri.empty();
-  }
-
-  ros::NodeHandle node_{"/camera"};
-  Manager manager_;
-};
 
 TEST_F(KinectUsb, SeveralAreToldApartByTheirSerialNumbers) {
   Kinect first, second;
@@ -213,17 +185,6 @@ TEST_F(KinectUsb, AccelerometerInTheOpticalFrame) {
   EXPECT_EQ(imu.orientation_covariance[0], -1.0);
   EXPECT_EQ(imu.angular_velocity_covariance[0], -1.0);
   EXPECT_GT(imu.linear_acceleration_covariance[0], 0.0);
-}
-
-TEST_F(KinectUsb, WithoutItsMotorACameraIsACameraStill) {
-  Kinect kinect;
-  kinect.has_motor = false;  // a later model without its audio firmware
-  freenect_double::plug("A1", kinect);
-  ASSERT_TRUE(manager_.loadDriver("/camera", "A1"));
-  Listener<sensor_msgs::Imu> readings(node_, "imu/data_raw");
-  Listener<sensor_msgs::Image> images(node_, "depth/image_raw");
-  ASSERT_TRUE(spinUntil([&] { return images.size() >= 30; }));
-  EXPECT_EQ(readings.size(), 0U);
 }
 
 TEST_F(KinectUsb, AStreamThatDoesNotStartIsTriedAgain) {

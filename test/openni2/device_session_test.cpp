@@ -3,7 +3,9 @@
 #include "openni2/device_session.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <future>
 #include <mutex>
 #include <thread>
@@ -151,6 +153,28 @@ TEST(DeviceSession, EndingAnswersWhoWaits) {
   ASSERT_EQ(answer.wait_for(kLong), std::future_status::ready);
   EXPECT_EQ(answer.get(), "the driver is being unloaded");
   EXPECT_EQ(session.apply(settings), "the driver is being unloaded");
+  EXPECT_EQ(session.reset(), "the driver is being unloaded");
+}
+
+/// With nobody looking for it, only the reset brings a camera that is there after all.
+TEST(DeviceSession, AResetLooksForACameraAtOnce) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("reset_scene_" + std::to_string(getpid()) + ".yaml");
+  std::filesystem::remove(file);
+  std::atomic<int> opened{0}, frames{0};
+  DeviceSession::Callbacks callbacks;
+  callbacks.opened = [&](const CameraDevice&) { ++opened; };
+  callbacks.frame = [&](StreamKind, const SensorFrame&) { ++frames; };
+  DeviceSession session("virtual://" + file.string() + "?noise=0", CameraSettings(), 30.0,
+                        callbacks, ReconnectPolicy(std::chrono::hours(1)));
+  session.want(StreamKind::kDepth, true);
+  EXPECT_NE(session.reset().find(file.string()), std::string::npos) << "why there is none";
+  EXPECT_FALSE(session.status().open);
+  std::filesystem::copy_file(DPD_SOURCE "/test/ros/still_scene.yaml", file);
+  EXPECT_EQ(session.reset(), "");
+  EXPECT_TRUE(becomes([&] { return frames >= 3; }));
+  EXPECT_EQ(opened, 1);
+  std::filesystem::remove(file);
 }
 
 }  // namespace

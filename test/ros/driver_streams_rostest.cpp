@@ -274,7 +274,11 @@ TEST_F(Driver, CalibrationOfAFileIsScaledToTheImages) {
   url.replace(url.find("depth_VK1"), 9, "${NAME}");
   ASSERT_TRUE(manager_.loadDriver("/camera", kUri, {{"depth_camera_info_url", url}}));
   Listener<sensor_msgs::CameraInfo> infos(node_, "depth/camera_info");
-  ASSERT_TRUE(spinUntil([&] { return infos.size() >= 1; }));
+  Listener<sensor_msgs::CameraInfo> projectors(node_, "projector/camera_info");
+  ASSERT_TRUE(spinUntil([&] { return infos.size() >= 1 && projectors.size() >= 1; }));
+  EXPECT_DOUBLE_EQ(projectors.last()->K[0], 600.0);
+  EXPECT_DOUBLE_EQ(projectors.last()->D[0], 0.0);
+  EXPECT_DOUBLE_EQ(projectors.last()->P[3], -0.075 * 600.0);
   EXPECT_DOUBLE_EQ(infos.last()->K[0], 600.0);
   EXPECT_DOUBLE_EQ(infos.last()->K[2], 300.5);
   EXPECT_DOUBLE_EQ(infos.last()->K[4], 602.0);

@@ -144,6 +144,30 @@ class Managers(unittest.TestCase):
         self.assertEqual(started, {driver, detection})
 
 
+class Processing(unittest.TestCase):
+    def test_nodelets_of_the_cameras_manager_where_they_are_asked_for(self):
+        for name in ("camera", "pioneer", "handheld"):
+            plain = {node.name for node in load(name).nodes}
+            nodes = [node for node in load(name, processing="true").nodes if node.name not in plain]
+            self.assertEqual({node.args.split()[1].split("/")[0] for node in nodes},
+                             {"image_proc", "depth_image_proc"}, name)
+            self.assertEqual(len(nodes), 7, name)
+            for node in nodes:
+                self.assertEqual(node.namespace, "/camera/", name)
+                self.assertEqual(node.args.split()[-1], "camera_nodelet_manager", name)
+
+    def test_depth_is_not_interpolated(self):
+        config = load("camera", processing="true")
+        for node in ("rectify_depth", "rectify_registered_depth"):
+            self.assertEqual(parameters(config, "/camera/" + node), {"interpolation": 0})
+        self.assertEqual(parameters(config, "/camera/rectify_color"), {})
+
+    def test_a_recordings_manager_has_them_too(self):
+        nodes = load("handheld", processing="true", device_id="/some.oni").nodes
+        points, = [node for node in nodes if node.name == "depth_points"]
+        self.assertEqual(points.args.split()[-1], "camera_nodelet_manager_of_recording")
+
+
 class CommandLines(unittest.TestCase):
     BAG = "/a folder/of mine/drive.bag"
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "openni2/runtime.h"
+#include "openni2_plugin/motor.h"
 #include "virtual_kinect/virtual_kinect.h"
 
 namespace dominant_plane_detection {
@@ -75,6 +76,12 @@ class Probe {
     with([&](openni::Device& device) {
       device.invoke(virtual_kinect::kRefuseStart, &number, sizeof(number));
     });
+  }
+  /// @return what its light shows, see openni2_plugin::Led.
+  std::int32_t led() const {
+    std::int32_t led = -1;
+    with([&](openni::Device& device) { device.getProperty(openni2_plugin::kLed, &led); });
+    return led;
   }
   void drift(double rate) const {
     with([&](openni::Device& device) {
