@@ -12,6 +12,9 @@
 #include "core/tile_moments.h"
 #include "dominant_plane_detection/depth_correction.h"
 #include "dominant_plane_detection/dominant_plane_detector.h"
+#include "navigation/ground_scan.h"
+#include "navigation/local_map.h"
+#include "navigation/obstacle_boxes.h"
 #include "reference_sets.h"
 
 namespace dominant_plane_detection {
@@ -88,6 +91,44 @@ BENCHMARK_CAPTURE(detectorWith, missing_ground, withAll(false, true, 1))
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(detectorWith, further_planes, withAll(false, false, 8))
     ->Unit(benchmark::kMicrosecond);
+
+/// What navigation takes, of a detection that is there.
+struct Seen {
+  RayTable table = rays();
+  DepthView view = depth();
+  DominantPlaneDetector detector;
+  const Detection& detection = detector.detect(view, scene().camera);
+};
+
+void groundScan(benchmark::State& state) {
+  Seen seen;
+  GroundScanner scanner;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(scanner.scan(seen.view, seen.table, seen.detection, {}).range_max);
+  }
+}
+BENCHMARK(groundScan)->Unit(benchmark::kMicrosecond);
+
+void localMap(benchmark::State& state) {
+  Seen seen;
+  LocalMap map(0.05, 8.0, 10.0);
+  double stamp = 0.0;
+  for (auto _ : state) {
+    map.add(stamp += 0.03, seen.view, seen.table, seen.detection, {},
+            Eigen::Isometry2d::Identity());
+  }
+}
+BENCHMARK(localMap)->Unit(benchmark::kMicrosecond);
+
+void obstacleBoxes(benchmark::State& state) {
+  Seen seen;
+  ObstacleBoxes boxes;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        boxes.find(seen.view, seen.table, seen.detection, {}, Parameters().local_error).size());
+  }
+}
+BENCHMARK(obstacleBoxes)->Unit(benchmark::kMicrosecond);
 
 void depthCorrection(benchmark::State& state) {
   DepthCorrection correction({2, 2, {0.001, -0.001, 0.002, 0.0}});

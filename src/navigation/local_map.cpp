@@ -118,13 +118,14 @@ void LocalMap::updateCells(const Image& image) {
       const bool in_view = isAbout(camera, point);
       const bool idle = !in_view && shown_[at].area == 0.0F && cells_[at].thing == 0.0F;
       if (idle) continue;
-      update(cells_[at], shown_[at], image, place, in_view);
+      const GroundSeen seen = in_view ? groundAt(image, point) : GroundSeen();
+      update(cells_[at], shown_[at], seen, image, place);
     }
   }
 }
 
-void LocalMap::update(Cell& cell, const Shown& shown, const Image& image,
-                      const Eigen::Vector2f& place, bool in_view) {
+void LocalMap::update(Cell& cell, const Shown& shown, const GroundSeen& seen, const Image& image,
+                      const Eigen::Vector2f& place) {
   const float side = std::min(static_cast<float>(grid_.resolution()), kThing);
   if (shown.area >= kShare * side * side) {
     const bool known = cell.thing > kNothingThere;
@@ -133,7 +134,6 @@ void LocalMap::update(Cell& cell, const Shown& shown, const Image& image,
     cell.thing = std::min(cell.thing + kHit, kMost);
     return;
   }
-  const GroundSeen seen = in_view ? groundAt(image, place) : GroundSeen();
   const bool nothing = shown.area == 0.0F;
   if (nothing && cell.thing > 0.0F) {
     const bool stood = cell.lowest < kFoot;
@@ -148,22 +148,24 @@ void LocalMap::update(Cell& cell, const Shown& shown, const Image& image,
 }
 
 /// What the image shows where four places of a cell are on the plane.
-LocalMap::GroundSeen LocalMap::groundAt(const Image& image, const Eigen::Vector2f& place) const {
-  GroundSeen seen;
+/// @param middle [m] of the cell, in the camera.
+LocalMap::GroundSeen LocalMap::groundAt(const Image& image, const Eigen::Vector3f& middle) const {
   const auto quarter = static_cast<float>(0.25 * grid_.resolution());
-  for (const float dx : {-quarter, quarter}) {
-    for (const float dy : {-quarter, quarter}) {
-      const Eigen::Vector3f point = inCamera(place + Eigen::Vector2f(dx, dy), 0.0F);
-      int u = 0, v = 0;
-      if (!pixelOf(image.rays.camera(), point, u, v)) continue;
-      const Label label = image.detection.label(u, v);
-      const bool missing = label == Label::kMissingGround && image.limits.missing_ground;
-      seen.hole += label == Label::kDropOff || missing;
-      const bool near = point.z() <= static_cast<float>(image.limits.free_range);
-      // The foot of a thing is called ground as well, and is nearer than the ground behind it.
-      seen.ground += label == Label::kGround && near &&
-                     metresAt(image.depth, u, v) > point.z() - 0.5F * marginAt(image, point.z());
-    }
+  const Eigen::Vector3f x = quarter * rotation_.row(0).transpose();
+  const Eigen::Vector3f y = quarter * rotation_.row(1).transpose();
+  GroundSeen seen;
+  for (const Eigen::Vector3f& point :
+       {Eigen::Vector3f(middle - x - y), Eigen::Vector3f(middle + x - y),
+        Eigen::Vector3f(middle - x + y), Eigen::Vector3f(middle + x + y)}) {
+    int u = 0, v = 0;
+    if (!pixelOf(image.rays.camera(), point, u, v)) continue;
+    const Label label = image.detection.label(u, v);
+    const bool missing = label == Label::kMissingGround && image.limits.missing_ground;
+    seen.hole += label == Label::kDropOff || missing;
+    const bool near = point.z() <= static_cast<float>(image.limits.free_range);
+    // The foot of a thing is called ground as well, and is nearer than the ground behind it.
+    seen.ground += label == Label::kGround && near &&
+                   metresAt(image.depth, u, v) > point.z() - 0.5F * marginAt(image, point.z());
   }
   return seen;
 }

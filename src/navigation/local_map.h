@@ -76,9 +76,9 @@ class LocalMap {
   void setView(const Detection& detection, const Eigen::Isometry2d& T_map_ground);
   void collectThings(const Image& image);
   void updateCells(const Image& image);
-  void update(Cell& cell, const Shown& shown, const Image& image, const Eigen::Vector2f& place,
-              bool in_view);
-  GroundSeen groundAt(const Image& image, const Eigen::Vector2f& place) const;
+  void update(Cell& cell, const Shown& shown, const GroundSeen& seen, const Image& image,
+              const Eigen::Vector2f& place);
+  GroundSeen groundAt(const Image& image, const Eigen::Vector3f& middle) const;
   bool seesThrough(const Image& image, const Cell& cell, const Eigen::Vector2f& place) const;
   bool pixelOf(const CameraModel& camera, const Eigen::Vector3f& point, int& u, int& v) const;
   float marginAt(const Image& image, float z) const;

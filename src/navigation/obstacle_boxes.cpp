@@ -35,7 +35,9 @@ constexpr double kLargeLength = 1.2, kLargeWidth = 0.4;
 
 constexpr float kBin = 0.01F;       // [m] in which extents are told
 constexpr float kTrimmed = 0.005F;  // [-] of the readings at each end
-constexpr int kDirections = 18;     // [#] in which a box may lie, 5 degrees apart
+constexpr std::ptrdiff_t kSample =
+    1000;                        // [#] of readings for that, at least, where there are more
+constexpr int kDirections = 18;  // [#] in which a box may lie, 5 degrees apart
 
 constexpr float kNoFloor = -1e9F;
 
@@ -228,8 +230,12 @@ bool ObstacleBoxes::isThing(const Point* first, const Point* last, const NoiseMo
          static_cast<double>(heights.high) >= told;
 }
 
-/// @return the upright box of least area.
+/// @return the upright box of least area, of a part of the points where they are many.
 UprightBox ObstacleBoxes::boxOf(const Point* first, const Point* last) {
+  sample_.clear();
+  const std::ptrdiff_t step = std::max<std::ptrdiff_t>((last - first) / kSample, 1);
+  for (std::ptrdiff_t i = 0; i < last - first; i += step) sample_.push_back(first[i]);
+  first = sample_.data(), last = sample_.data() + sample_.size();
   Extent along, across;
   float least = INFINITY, yaw = 0.0F;
   for (int k = 0; k < kDirections; ++k) {

@@ -71,7 +71,7 @@ class ObstacleBoxes {
   float pixel_ = 0.0F;                ///< [-] area of such a pixel at a depth of 1
   std::vector<std::uint32_t> nodes_;  ///< for each of these, the number of its point + 1, or 0
   std::vector<float> floor_;          ///< [m] height of these where they are floor
-  std::vector<Point> points_, sorted_;
+  std::vector<Point> points_, sorted_, sample_;
   std::vector<std::uint32_t> begins_;  ///< of each thing's points
   std::vector<int> bins_;
   std::vector<UprightBox> boxes_;
