@@ -73,7 +73,7 @@ float farthestGround(const RayTable& rays, const Eigen::Matrix3f& rotation, floa
 }  // namespace
 
 void GroundScanner::begin(const RayTable& rays, const Detection& detection,
-                          const ObstacleLimits& limits) {
+                          const ScanLimits& limits) {
   const Eigen::Isometry3d frame = groundFromOptical(detection.normal, detection.distance);
   rotation_ = frame.linear().cast<float>();
   height_ = static_cast<float>(detection.distance);
@@ -95,7 +95,7 @@ void GroundScanner::begin(const RayTable& rays, const Detection& detection,
 }
 
 void GroundScanner::addRow(int v, const DepthView& depth, const RayTable& rays,
-                           const Detection& detection, const ObstacleLimits& limits) {
+                           const Detection& detection, const ScanLimits& limits) {
   const auto low = static_cast<float>(limits.clearance_height);
   const auto high = static_cast<float>(limits.max_obstacle_height);
   const auto first = static_cast<float>(scan_.angle_min - 0.5 * kIncrement);
@@ -159,7 +159,7 @@ bool GroundScanner::isFree(std::size_t direction) const {
 }
 
 const GroundScan& GroundScanner::scan(const DepthView& depth, const RayTable& rays,
-                                      const Detection& detection, const ObstacleLimits& limits) {
+                                      const Detection& detection, const ScanLimits& limits) {
   scan_ = GroundScan();
   if (!detection.found()) return scan_;
   begin(rays, detection, limits);

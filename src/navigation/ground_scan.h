@@ -24,6 +24,11 @@ struct GroundScan {
   double angle(std::size_t i) const { return angle_min + static_cast<double>(i) * angle_increment; }
 };
 
+struct ScanLimits : ObstacleLimits {
+  bool missing_ground = false;  ///< missing ground is an obstacle
+  double range_max = 4.0;       ///< [m] farthest depth that was looked at
+};
+
 /// Makes scans from labels. Each pixel is a place over the ground, so that pitch and roll of the
 /// camera do not matter: its columns are not vertical then.
 ///
@@ -35,7 +40,7 @@ class GroundScanner {
   /// @param rays of the detection's camera.
   /// @return without a plane no readings; valid until the next call.
   const GroundScan& scan(const DepthView& depth, const RayTable& rays, const Detection& detection,
-                         const ObstacleLimits& limits);
+                         const ScanLimits& limits);
 
  private:
   struct Cell {
@@ -43,9 +48,9 @@ class GroundScanner {
     float sum = 0.0F;          ///< [m] of their ranges
   };
 
-  void begin(const RayTable& rays, const Detection& detection, const ObstacleLimits& limits);
+  void begin(const RayTable& rays, const Detection& detection, const ScanLimits& limits);
   void addRow(int v, const DepthView& depth, const RayTable& rays, const Detection& detection,
-              const ObstacleLimits& limits);
+              const ScanLimits& limits);
   float rangeOf(std::size_t direction, std::uint32_t least) const;
   bool isFree(std::size_t direction) const;
 

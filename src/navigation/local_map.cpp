@@ -1,7 +1,6 @@
 #include "navigation/local_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "navigation/ground_frame.h"
@@ -13,15 +12,13 @@ namespace {
 constexpr float kHit = 0.85F, kMiss = 0.4F;
 constexpr float kMost = 3.5F, kLeast = -2.0F;
 /// One image is enough to be occupied, and one to be free where nothing else was seen.
-constexpr float kOccupiedFrom = 0.5F, kFreeTo = -0.3F, kNothingThere = 0.2F;
+constexpr float kOccupiedFrom = 0.5F, kFreeTo = -0.3F, kForgotten = 0.02F;
 
 constexpr int kStep = 2;  // [px] from one pixel that is looked at to the next
 /// [m] A thing shows itself by a quarter of a square of this side; of a cell, where that is less.
 constexpr float kThing = 0.05F;
 constexpr float kShare = 0.25F;
-/// [m] What reaches down to here stands on the ground.
-constexpr float kFoot = 0.1F;
-constexpr double kSigmas = 3.0F;
+constexpr double kSigmas = 3.0;  // [-]
 
 /// @return whether a point may be in an image, generously: farther out distortion is not meant for
 /// it.
@@ -54,8 +51,10 @@ void LocalMap::age(double stamp) {
   if (seconds < 0.0 || !(memory_ > 0.0)) return reset();
   const auto rest = static_cast<float>(std::exp(-seconds / memory_));
   for (Cell& cell : cells_) {
-    cell.surface *= rest;
+    cell.surface = std::abs(cell.surface) < kForgotten ? 0.0F : cell.surface * rest;
+    if (cell.thing == 0.0F) continue;
     cell.thing *= rest;
+    if (cell.thing < kForgotten) cell = Cell();  // it may be there still, and the ground below it
   }
 }
 
@@ -124,25 +123,35 @@ void LocalMap::updateCells(const Image& image) {
   }
 }
 
+/// Where something low is seen below something high, the high one is kept: only who looks through
+/// it may take it away.
+void LocalMap::extend(Cell& cell, const Shown& shown) const {
+  const auto side = static_cast<float>(grid_.resolution());
+  const bool known = cell.thing > 0.0F;
+  const bool above = shown.lowest > cell.highest + side, below = shown.highest < cell.lowest - side;
+  if (known && below) return;
+  const bool together = known && !above;
+  cell.lowest = together ? std::min(cell.lowest, shown.lowest) : shown.lowest;
+  cell.highest = together ? std::max(cell.highest, shown.highest) : shown.highest;
+}
+
 void LocalMap::update(Cell& cell, const Shown& shown, const GroundSeen& seen, const Image& image,
                       const Eigen::Vector2f& place) {
   const float side = std::min(static_cast<float>(grid_.resolution()), kThing);
   if (shown.area >= kShare * side * side) {
-    const bool known = cell.thing > kNothingThere;
-    cell.lowest = known ? std::min(cell.lowest, shown.lowest) : shown.lowest;
-    cell.highest = known ? std::max(cell.highest, shown.highest) : shown.highest;
+    extend(cell, shown);
     cell.thing = std::min(cell.thing + kHit, kMost);
     return;
   }
   const bool nothing = shown.area == 0.0F;
   if (nothing && cell.thing > 0.0F) {
-    const bool stood = cell.lowest < kFoot;
+    const bool stood = cell.lowest < static_cast<float>(footHeight(image.limits));
     const bool gone = (stood && seen.ground >= 3) || seesThrough(image, cell, place);
     if (gone) cell.thing = std::max(cell.thing - kMiss, 0.0F);
   }
   if (seen.hole >= 2) {
     cell.surface = std::min(cell.surface + kHit, kMost);
-  } else if (seen.ground >= 2 && nothing) {
+  } else if (seen.ground >= 2 && seen.hole == 0 && nothing) {
     cell.surface = std::max(cell.surface - kMiss, kLeast);
   }
 }
@@ -181,7 +190,8 @@ bool LocalMap::seesThrough(const Image& image, const Cell& cell,
     int u = 0, v = 0;
     if (!pixelOf(image.rays.camera(), point, u, v)) continue;
     ++seen;
-    through += metresAt(image.depth, u, v) > point.z() + marginAt(image, point.z());
+    const float z = metresAt(image.depth, u, v);
+    through += std::isfinite(z) && z > point.z() + marginAt(image, point.z());
   }
   return seen > 0 && through == seen;
 }
@@ -219,7 +229,7 @@ bool LocalMap::pixelOf(const CameraModel& camera, const Eigen::Vector3f& point, 
 LocalMap::State LocalMap::state(int x, int y) const {
   const Cell& cell = cells_[grid_.placeOf(x, y)];
   if (std::max(cell.thing, cell.surface) >= kOccupiedFrom) return kOccupied;
-  return cell.surface <= kFreeTo && cell.thing < kNothingThere ? kFree : kUnknown;
+  return cell.surface <= kFreeTo && cell.thing == 0.0F ? kFree : kUnknown;
 }
 
 }  // namespace dominant_plane_detection

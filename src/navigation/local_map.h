@@ -15,8 +15,9 @@
 namespace dominant_plane_detection {
 
 struct MapLimits : ObstacleLimits {
-  NoiseModel noise;         ///< of the readings
-  double free_range = 4.0;  ///< [m] depth of the farthest ground that makes a cell free
+  bool missing_ground = false;  ///< missing ground is occupied
+  NoiseModel noise;             ///< of the readings
+  double free_range = 4.0;      ///< [m] depth of the farthest ground that makes a cell free
 };
 
 /// A square of the ground about the camera, which moves with it: what is free, what stands there,
@@ -76,6 +77,7 @@ class LocalMap {
   void setView(const Detection& detection, const Eigen::Isometry2d& T_map_ground);
   void collectThings(const Image& image);
   void updateCells(const Image& image);
+  void extend(Cell& cell, const Shown& shown) const;
   void update(Cell& cell, const Shown& shown, const GroundSeen& seen, const Image& image,
               const Eigen::Vector2f& place);
   GroundSeen groundAt(const Image& image, const Eigen::Vector3f& middle) const;

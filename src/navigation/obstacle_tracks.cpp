@@ -6,6 +6,7 @@ namespace dominant_plane_detection {
 namespace {
 
 // For which a thing that is not seen is known.
+constexpr double kSilence = 5.0;      // [s] without an image, after which nothing is known
 constexpr double kMemory = 1.0;       // [s]
 constexpr std::uint32_t kImages = 3;  // [#] images, which may be more
 /// [m] How far the centre of one box may be from the other: what odometry and the box's own error
@@ -23,7 +24,7 @@ double distanceTo(const UprightBox& box, const Eigen::Vector2d& place) {
 const std::vector<TrackedBox>& ObstacleTracks::follow(double stamp,
                                                       const std::vector<UprightBox>& boxes,
                                                       const Eigen::Isometry2d& T_world_ground) {
-  if (stamp < stamp_) forget();
+  if (stamp < stamp_ || stamp > stamp_ + kSilence) forget();
   stamp_ = stamp;
   in_world_ = boxes;
   const double turn = Eigen::Rotation2Dd(T_world_ground.linear()).smallestAngle();

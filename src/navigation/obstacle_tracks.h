@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "navigation/obstacle_boxes.h"
+#include "navigation/upright_box.h"
 
 namespace dominant_plane_detection {
 
@@ -26,7 +26,7 @@ class ObstacleTracks {
   /// @param least [#] images in which a thing has to be seen.
   explicit ObstacleTracks(std::uint32_t least) : least_(least) {}
 
-  /// @param stamp [s] of the image; after an earlier one than the last all are forgotten.
+  /// @param stamp [s] of the image; before the last, or 5 s after it, all things are forgotten.
   /// @param boxes in the frame on the ground.
   /// @param T_world_ground of that frame by odometry. Without odometry the identity: then things
   /// are followed that move less than 0.2 m against the camera from image to image.

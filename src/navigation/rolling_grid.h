@@ -1,10 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <optional>
 
 namespace dominant_plane_detection {
 

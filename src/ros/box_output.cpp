@@ -30,35 +30,47 @@ void BoxOutput::publish(const DetectionInputs::Frame& frame, const Detection& de
                         const Parameters& detector) {
   if (!anybodyListens()) return;
   Eigen::Isometry3d T_ground_optical = Eigen::Isometry3d::Identity();
-  std::vector<TrackedBox> boxes;
+  told_.clear();
   if (detection.found()) {
     T_ground_optical = groundFromOptical(detection.normal, detection.distance);
     rays_.build(frame.camera);
-    const auto& found =
-        finder_.find(frame.depth, rays_, detection, obstacleLimits(parameters_, detector.range_max),
-                     detector.local_error);
-    boxes = tracks_.follow(frame.header.stamp.toSec(), found,
-                           groundInWorld(frame.header, T_ground_optical));
+    follow(frame.header, T_ground_optical,
+           finder_.find(frame.depth, rays_, detection, obstacleLimits(parameters_),
+                        detector.local_error));
   }
+  const Eigen::Isometry3d T_optical_ground = T_ground_optical.inverse();
   if (boxes_.getNumSubscribers() > 0) {
-    boxes_.publish(boxesMessage(frame.header, boxes, T_ground_optical.inverse()));
+    boxes_.publish(boxesMessage(frame.header, told_, T_optical_ground));
   }
   if (markers_.getNumSubscribers() > 0) {
-    markers_.publish(boxMarkers(frame.header, boxes, T_ground_optical.inverse()));
+    markers_.publish(boxMarkers(frame.header, told_, T_optical_ground));
   }
 }
 
-/// Where odometry comes or goes, things are other ones: their places are not to be compared.
-Eigen::Isometry2d BoxOutput::groundInWorld(const std_msgs::Header& header,
-                                           const Eigen::Isometry3d& T_ground_optical) {
-  Pose camera;
-  if (!parameters_.odom_frame.empty()) {
-    camera = frames_.pose(parameters_.odom_frame, header.frame_id, header.stamp);
+/// Where odometry comes or goes for good, things are other ones: their places are not to be
+/// compared.
+void BoxOutput::follow(const std_msgs::Header& header, const Eigen::Isometry3d& T_ground_optical,
+                       const std::vector<UprightBox>& found) {
+  const bool known = place_.has_value();
+  const auto place = groundInOdometry(header, T_ground_optical);
+  if (place.has_value() != known) tracks_.forget();
+  place_ = place;
+  told_ =
+      tracks_.follow(header.stamp.toSec(), found, place.value_or(Eigen::Isometry2d::Identity()));
+}
+
+/// Odometry that comes more slowly than images has none for some of them: the last place will do.
+std::optional<Eigen::Isometry2d> BoxOutput::groundInOdometry(
+    const std_msgs::Header& header, const Eigen::Isometry3d& T_ground_optical) {
+  constexpr double kPatience = 0.25;  // [s]
+  if (parameters_.odom_frame.empty()) return std::nullopt;
+  const Pose camera = frames_.pose(parameters_.odom_frame, header.frame_id, header.stamp);
+  if (camera.transform) {
+    placed_ = header.stamp;
+    return groundFromAbove(*camera.transform, T_ground_optical);
   }
-  if (in_odometry_ != camera.transform.has_value()) tracks_.forget();
-  in_odometry_ = camera.transform.has_value();
-  return in_odometry_ ? groundFromAbove(*camera.transform, T_ground_optical)
-                      : Eigen::Isometry2d::Identity();
+  const double late = (header.stamp - placed_).toSec();
+  return late >= 0.0 && late <= kPatience ? place_ : std::nullopt;
 }
 
 }  // namespace dominant_plane_detection

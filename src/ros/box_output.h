@@ -3,6 +3,8 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <optional>
+#include <vector>
 
 #include "core/ray_table.h"
 #include "dominant_plane_detection/parameters.h"
@@ -32,15 +34,21 @@ class BoxOutput {
                const Parameters& detector);
 
  private:
-  Eigen::Isometry2d groundInWorld(const std_msgs::Header& header,
-                                  const Eigen::Isometry3d& T_ground_optical);
+  std::optional<Eigen::Isometry2d> groundInOdometry(const std_msgs::Header& header,
+                                                    const Eigen::Isometry3d& T_ground_optical);
+  void follow(const std_msgs::Header& header, const Eigen::Isometry3d& T_ground_optical,
+              const std::vector<UprightBox>& found);
 
   NodeParameters parameters_;
   RobotFrames& frames_;
   RayTable& rays_;
   ObstacleBoxes finder_;
   ObstacleTracks tracks_;
-  bool in_odometry_ = false;  ///< whether things are followed by it, now
+  /// The last place of the frame on the ground by odometry; without one things are followed from
+  /// image to image.
+  std::optional<Eigen::Isometry2d> place_;
+  ros::Time placed_;              ///< when that was
+  std::vector<TrackedBox> told_;  ///< of the image
   ros::Publisher boxes_;
   ros::Publisher markers_;
 };

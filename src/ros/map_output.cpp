@@ -12,6 +12,12 @@ namespace {
 
 constexpr std::uint32_t kQueue = 10;
 constexpr double kThrottle = 5.0;  // [s] between lines of the same kind
+constexpr double kPatience = 1.0;  // [s] for which missing tf is nothing to speak of
+
+MapLimits limitsOf(const NodeParameters& parameters, const Parameters& detector) {
+  return {obstacleLimits(parameters), parameters.map_missing_ground, detector.noise,
+          freeRange(detector.local_error, parameters.map_obstacle_height)};
+}
 
 }  // namespace
 
@@ -29,58 +35,59 @@ MapOutput::MapOutput(ros::NodeHandle& private_node, const NodeParameters& parame
       private_node.advertise<nav_msgs::OccupancyGrid>(topics::kLocalMap, kQueue, changed, changed);
 }
 
-std::optional<MapOutput::Place> MapOutput::placeOf(const std_msgs::Header& header,
-                                                   const Detection& detection,
-                                                   const std::optional<std::string>& ground_frame) {
-  if (!detection.found()) return std::nullopt;
-  if (parameters_.odom_frame.empty())
-    return ground_frame ? std::make_optional(Place()) : std::nullopt;
-  const auto camera = frames_.pose(parameters_.odom_frame, header.frame_id, header.stamp);
-  if (!camera.transform) {
-    ROS_WARN_STREAM_THROTTLE(kThrottle, "Nothing is added to the map in "
-                                            << parameters_.odom_frame << ": " << camera.problem);
-    return std::nullopt;
+/// Of the image's very time: at 1 rad/s a twentieth of a second is three cells at 3 m.
+std::optional<Eigen::Isometry3d> MapOutput::cameraInOdometry(const std_msgs::Header& header) {
+  const Pose camera = frames_.pose(parameters_.odom_frame, header.frame_id, header.stamp);
+  if (camera.transform && camera.exact) {
+    lost_.reset();
+    return camera.transform;
   }
-  const Eigen::Vector3d foot = *camera.transform * (-detection.distance * detection.normal);
-  return Place{
-      groundFromAbove(*camera.transform, groundFromOptical(detection.normal, detection.distance)),
-      foot.z()};
+  if (!lost_ || header.stamp < *lost_) lost_ = header.stamp;
+  if ((header.stamp - *lost_).toSec() >= kPatience) {
+    ROS_WARN_STREAM_THROTTLE(
+        kThrottle, "Nothing is added to the map in "
+                       << parameters_.odom_frame << ": "
+                       << (camera.problem.empty() ? "tf comes too late" : camera.problem));
+  }
+  return std::nullopt;
+}
+
+bool MapOutput::add(const DetectionInputs::Frame& frame, const Detection& detection,
+                    const Parameters& detector) {
+  if (!detection.found()) return false;
+  Eigen::Isometry2d place = Eigen::Isometry2d::Identity();
+  if (keeps()) {
+    const auto camera = cameraInOdometry(frame.header);
+    if (!camera) return false;
+    place = groundFromAbove(*camera, groundFromOptical(detection.normal, detection.distance));
+    height_ = (*camera * (-detection.distance * detection.normal)).z();
+  }
+  rays_.build(frame.camera);
+  map_.add(frame.header.stamp.toSec(), frame.depth, rays_, detection,
+           limitsOf(parameters_, detector), place);
+  return true;
 }
 
 /// While nobody listened, or in a bag that begins again, things have changed.
 void MapOutput::beginAnewAfterSilence(const ros::Time& stamp) {
-  if (!last_) return;
-  const double seconds = (stamp - *last_).toSec();
+  const double seconds = last_ ? (stamp - *last_).toSec() : 0.0;
+  last_ = stamp;
   if (seconds >= 0.0 && seconds < parameters_.map_memory) return;
   map_.reset();
-  last_.reset();
+  begun_ = false;
 }
 
 void MapOutput::publish(const DetectionInputs::Frame& frame, const Detection& detection,
                         const std::optional<std::string>& ground_frame,
                         const Parameters& detector) {
-  if (!anybodyListens()) return;
+  if (!anybodyListens() || (!keeps() && !ground_frame)) return;
   beginAnewAfterSilence(frame.header.stamp);
-  const double stamp = frame.header.stamp.toSec();
-  const auto place = placeOf(frame.header, detection, ground_frame);
+  const bool added = add(frame, detection, detector);
+  if (!added) map_.age(frame.header.stamp.toSec());
+  begun_ = added || (begun_ && keeps());
+  if (!begun_) return;
   std_msgs::Header header = frame.header;
-  header.frame_id = ground_frame.value_or("");
-  if (!parameters_.odom_frame.empty()) header.frame_id = parameters_.odom_frame;
-  if (place) {
-    MapLimits limits;
-    static_cast<ObstacleLimits&>(limits) = obstacleLimits(parameters_, detector.range_max);
-    limits.missing_ground = parameters_.map_missing_ground;
-    limits.noise = detector.noise;
-    limits.free_range = freeRange(detector.local_error, parameters_.map_obstacle_height);
-    rays_.build(frame.camera);
-    map_.add(stamp, frame.depth, rays_, detection, limits, place->pose);
-    height_ = place->height;
-    last_ = frame.header.stamp;
-  } else if (last_ && !parameters_.odom_frame.empty()) {
-    map_.age(stamp);
-  } else {
-    return;
-  }
+  header.frame_id = keeps() ? plainFrame(parameters_.odom_frame) : *ground_frame;
   publisher_.publish(mapMessage(header, map_, height_));
 }
 

@@ -25,28 +25,28 @@ class MapOutput {
 
   bool anybodyListens() const { return publisher_.getNumSubscribers() > 0; }
   /// @return whether the frame on the ground has to go out for it.
-  bool needsGroundFrame() const { return anybodyListens() && parameters_.odom_frame.empty(); }
-  /// Without a plane, or tf, nothing is added, and what is known of before goes out.
+  bool needsGroundFrame() const { return anybodyListens() && !keeps(); }
+  /// With `odom_frame`: without a plane, or tf of the image's very time, nothing is added, and what
+  /// is known of before goes out.
   /// @param ground_frame on the ground now (`GroundTf`).
   /// @param detector what the detection was made with.
   void publish(const DetectionInputs::Frame& frame, const Detection& detection,
                const std::optional<std::string>& ground_frame, const Parameters& detector);
 
  private:
-  /// Of the frame on the ground, in that of the map.
-  struct Place {
-    Eigen::Isometry2d pose = Eigen::Isometry2d::Identity();
-    double height = 0.0;  ///< [m] of the ground below the camera
-  };
-  std::optional<Place> placeOf(const std_msgs::Header& header, const Detection& detection,
-                               const std::optional<std::string>& ground_frame);
+  bool keeps() const { return !parameters_.odom_frame.empty(); }
+  bool add(const DetectionInputs::Frame& frame, const Detection& detection,
+           const Parameters& detector);
+  std::optional<Eigen::Isometry3d> cameraInOdometry(const std_msgs::Header& header);
   void beginAnewAfterSilence(const ros::Time& stamp);
 
   NodeParameters parameters_;
   RobotFrames& frames_;
   RayTable& rays_;
   LocalMap map_;
-  std::optional<ros::Time> last_;  ///< of what was added; nothing: the map is empty
+  bool begun_ = false;             ///< something was added
+  std::optional<ros::Time> last_;  ///< image, while somebody listened
+  std::optional<ros::Time> lost_;  ///< the first image without tf since one that had it
   double height_ = 0.0;            ///< [m] of the ground in the frame of the map
   ros::Publisher publisher_;
 };

@@ -51,6 +51,11 @@ std::vector<std::string> refuseContradictions(NodeParameters& p) {
                         " for both");
     p.odom_frame.clear();
   }
+  if (!p.odom_frame.empty() && p.odom_frame == p.base_frame) {
+    errors.emplace_back("odom_frame has to be a frame that base_frame moves in, got " +
+                        p.odom_frame + " for both");
+    p.odom_frame.clear();
+  }
   if (!p.base_frame.empty()) return errors;
   if (p.publish_tf == TfOutput::kBase) {
     errors.emplace_back("publish_tf base needs a base_frame, got none");
@@ -63,8 +68,8 @@ std::vector<std::string> refuseContradictions(NodeParameters& p) {
   return errors;
 }
 
-ObstacleLimits obstacleLimits(const NodeParameters& parameters, double range_max) {
-  return {parameters.clearance_height, parameters.max_obstacle_height, false, range_max};
+ObstacleLimits obstacleLimits(const NodeParameters& parameters) {
+  return {parameters.clearance_height, parameters.max_obstacle_height};
 }
 
 NodeParameters loadNodeParameters(const ros::NodeHandle& private_node) {

@@ -112,9 +112,8 @@ void setParameter(NodeParameters& parameters, const std::string& name, const std
 /// @return one sentence each.
 std::vector<std::string> refuseContradictions(NodeParameters& parameters);
 
-/// @param range_max [m] farthest depth that is looked at.
-/// @return what the robot would touch; the map and the scan say themselves what missing ground is.
-ObstacleLimits obstacleLimits(const NodeParameters& parameters, double range_max);
+/// @return what of the obstacles the robot would touch.
+ObstacleLimits obstacleLimits(const NodeParameters& parameters);
 
 /// Reads them from a node's private namespace. What cannot be used is refused in one line of the
 /// log, and the default stays.

@@ -14,8 +14,7 @@ constexpr std::uint32_t kQueue = 10;
 
 ScanOutput::ScanOutput(ros::NodeHandle& private_node, const NodeParameters& parameters,
                        RayTable& rays, const std::function<void()>& listeners_changed)
-    : limits_(obstacleLimits(parameters, 0.0)), rays_(rays) {
-  limits_.missing_ground = parameters.scan_missing_ground;
+    : limits_{obstacleLimits(parameters), parameters.scan_missing_ground, 0.0}, rays_(rays) {
   const ros::SubscriberStatusCallback changed =
       [listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); };
   publisher_ =
@@ -24,7 +23,7 @@ ScanOutput::ScanOutput(ros::NodeHandle& private_node, const NodeParameters& para
 
 void ScanOutput::publish(const DetectionInputs::Frame& frame, const Detection& detection,
                          const std::optional<std::string>& ground_frame, double range_max) {
-  if (!detection.found() || !ground_frame || !anybodyListens()) return;
+  if (!ground_frame || !anybodyListens()) return;
   limits_.range_max = range_max;
   rays_.build(frame.camera);
   std_msgs::Header header = frame.header;

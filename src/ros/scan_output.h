@@ -28,7 +28,7 @@ class ScanOutput {
                const std::optional<std::string>& ground_frame, double range_max);
 
  private:
-  ObstacleLimits limits_;
+  ScanLimits limits_;
   GroundScanner scanner_;
   RayTable& rays_;
   ros::Publisher publisher_;

@@ -16,11 +16,11 @@ constexpr double kHeight = kSightHeight;
 class Sight : public GroundSight {
  public:
   using GroundSight::GroundSight;
-  const GroundScan& scan(const ObstacleLimits& limits = {}) {
+  const GroundScan& scan(const ScanLimits& limits = {}) {
     return scanner_.scan(depth(), rays(), detection(), limits);
   }
   /// @return [m] the reading in a direction.
-  double at(double direction, const ObstacleLimits& limits = {}) {
+  double at(double direction, const ScanLimits& limits = {}) {
     const GroundScan& s = scan(limits);
     const double index = (direction - s.angle_min) / s.angle_increment;
     return static_cast<double>(s.ranges.at(static_cast<std::size_t>(std::lround(index))));
@@ -108,7 +108,7 @@ TEST(GroundScanner, OnlyWhatTheRobotTouchesCounts) {
   Sight sight(0.3, 0.0);
   sight.addPost(0.0, 1.6, 0.0, 0.05);
   sight.addPost(0.2, 1.6, 0.45, 0.8);
-  ObstacleLimits robot;
+  ScanLimits robot;
   EXPECT_NEAR(sight.at(0.0, robot), 1.6, 0.002);
   EXPECT_NEAR(sight.at(0.2, robot), 1.6, 0.002);
   robot.clearance_height = 0.06;
@@ -123,7 +123,7 @@ TEST(GroundScanner, ADropOffIsAtItsEdge) {
   EXPECT_NEAR(sight.at(0.0), 1.3, 0.03);
   sight.mark(0.2, 1.3, Label::kMissingGround);
   EXPECT_FALSE(std::isfinite(sight.at(0.2)));
-  ObstacleLimits careful;
+  ScanLimits careful;
   careful.missing_ground = true;
   EXPECT_NEAR(sight.at(0.2, careful), 1.3, 0.03);
 }

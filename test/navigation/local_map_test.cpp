@@ -84,18 +84,21 @@ TEST(LocalMap, WhatIsSeenIsFreeOrOccupiedAndTheRestIsUnknown) {
   }
 }
 
+/// Far from the middle of the image, where the distortion is 5 cm on the floor.
 TEST(LocalMap, ALensMayBeDistorted) {
   CameraModel camera = testCamera();
   camera.distortion = DistortionModel::kPlumbBob;
-  camera.coefficients = {0.12, -0.2, 0.001, -0.001};
+  camera.coefficients = {-0.3, 0.05, 0.001, -0.001};
   GroundSight sight(20.0 * kDegree, 0.0, camera);
-  sight.addPost(0.2, 1.52, 0.0, 0.5);
+  const double direction = 0.5, wide = 1.5 * kDegree;
+  sight.mark(direction, 0.5, Label::kDropOff);
   Map map;
   map.add(sight);
-  EXPECT_EQ(map.at(polar(0.2, 1.52)), LocalMap::kOccupied);
-  EXPECT_EQ(map.at(polar(0.2, 1.8)), LocalMap::kUnknown);
-  for (const double direction : {-0.4, -0.2, 0.0, 0.4}) {
-    EXPECT_EQ(map.at(polar(direction, 1.5)), LocalMap::kFree) << direction;
+  for (const double range : {1.6, 1.7, 1.8, 1.9, 2.0}) {
+    const double cell = 1.1 * kCell / range;  // [rad] no place of it is beyond the border
+    EXPECT_EQ(map.at(polar(direction, range)), LocalMap::kOccupied) << range;
+    EXPECT_EQ(map.at(polar(direction + wide + cell, range)), LocalMap::kFree) << range;
+    EXPECT_EQ(map.at(polar(direction - wide - cell, range)), LocalMap::kFree) << range;
   }
 }
 
@@ -129,6 +132,59 @@ TEST(LocalMap, FloorBelowATableDoesNotTakeItAway) {
   EXPECT_EQ(map.at(place), LocalMap::kFree);
 }
 
+/// Nor does something low below it, which comes and goes.
+TEST(LocalMap, AShoeBelowATableDoesNotTakeItAway) {
+  const Eigen::Vector2d place = polar(0.0, 1.72);
+  GroundSight table(15.0 * kDegree, 0.0), shoe(38.0 * kDegree, 0.0), below(38.0 * kDegree, 0.0);
+  table.addPost(0.0, 1.72, 0.45, 0.55);
+  shoe.addPost(0.0, 1.72, 0.0, 0.08);
+  Map map;
+  for (int i = 0; i < 5; ++i) map.add(table);
+  for (int i = 0; i < 5; ++i) map.add(shoe);
+  for (int i = 0; i < 60; ++i) map.add(below);
+  EXPECT_EQ(map.at(place), LocalMap::kOccupied);
+}
+
+/// What fades becomes unknown: nobody has looked whether it is free.
+TEST(LocalMap, NothingFadesIntoWhatIsFree) {
+  GroundSight floor(20.0 * kDegree, 0.0), with_post(20.0 * kDegree, 0.0);
+  with_post.addPost(0.0, 1.52, 0.0, 0.5);
+  Map map;
+  for (int i = 0; i < 30; ++i) map.add(floor);
+  map.add(with_post);
+  for (double waited = 0.0; waited < 100.0; waited += 0.5) {
+    EXPECT_NE(map.at(polar(0.0, 1.52)), LocalMap::kFree) << waited;
+    map.wait(0.5);
+  }
+  EXPECT_EQ(map.at(polar(0.0, 1.52)), LocalMap::kUnknown);
+  map.add(floor);
+  EXPECT_EQ(map.at(polar(0.0, 1.52)), LocalMap::kFree);
+}
+
+/// A wrong reading above it makes a thing higher than it is: that the camera looks through there
+/// does not take it away.
+TEST(LocalMap, AThingHasToBeLookedThroughFromTopToBottom) {
+  GroundSight too_high(15.0 * kDegree, 0.0), farther(15.0 * kDegree, 0.0);
+  too_high.addPost(0.0, 1.52, 0.15, 0.9);
+  farther.addPost(0.0, 3.02, 0.0, 2.0);
+  farther.addPost(0.0, 1.58, 0.15, 0.5);
+  Map map;
+  for (int i = 0; i < 5; ++i) map.add(too_high);
+  for (int i = 0; i < 30; ++i) map.add(farther);
+  EXPECT_EQ(map.at(polar(0.0, 1.52)), LocalMap::kOccupied);
+}
+
+TEST(LocalMap, InfinityIsNoReading) {
+  GroundSight with_post(20.0 * kDegree, 0.0), endless = blindSight();
+  with_post.addPost(0.0, 1.52, 0.0, 0.5);
+  endless.changeFloor(
+      [](const Eigen::Vector2d&, float& depth, std::uint8_t&) { depth = INFINITY; });
+  Map map;
+  map.add(with_post);
+  for (int i = 0; i < 10; ++i) map.add(endless);
+  EXPECT_EQ(map.at(polar(0.0, 1.52)), LocalMap::kOccupied);
+}
+
 /// And it is not taken away by wrong readings of the places beside it.
 TEST(LocalMap, WhatIsHiddenStays) {
   GroundSight far(20.0 * kDegree, 0.0), near(20.0 * kDegree, 0.0);
@@ -160,15 +216,31 @@ TEST(LocalMap, DropOffsAreOccupiedAndMissingGroundIsIfItIsToBe) {
   EXPECT_EQ(careful.at(polar(0.2, 1.7)), LocalMap::kFree);
 }
 
+/// A cell with a hole in a quarter of it is not free.
+TEST(LocalMap, WhatIsPartlyAHoleIsNotFree) {
+  GroundSight sight(20.0 * kDegree, 0.0);
+  sight.mark(std::atan2(0.15, 1.55), 1.5, Label::kDropOff);
+  LocalMap coarse(0.2, 6.0, 10.0);
+  coarse.add(1.0, sight.depth(), sight.rays(), sight.detection(), {},
+             Eigen::Isometry2d::Identity());
+  const auto at = [&](double x, double y) {
+    const Eigen::Vector2d cell = (Eigen::Vector2d(x, y) - coarse.grid().origin()) / 0.2;
+    return coarse.state(static_cast<int>(std::floor(cell.x())),
+                        static_cast<int>(std::floor(cell.y())));
+  };
+  EXPECT_EQ(at(1.5, 0.1), LocalMap::kUnknown);
+  EXPECT_EQ(at(1.5, -0.1), LocalMap::kFree);
+}
+
 /// Ground that is labelled as such from behind a reading is not there: the foot of a thing.
 TEST(LocalMap, TheFootOfAThingIsNoGroundBehindIt) {
   GroundSight sight(20.0 * kDegree, 0.0);
-  sight.addPost(0.0, 1.52, 0.04, 0.5);
-  sight.addPost(0.0, 1.52, 0.0, 0.04, Label::kGround);
+  sight.addPost(0.0, 1.52, 0.08, 0.5);
+  sight.addPost(0.0, 1.52, 0.0, 0.08, Label::kGround);  // beyond which the plane is 1.75 m away
   Map map;
   map.add(sight);
   EXPECT_EQ(map.at(polar(0.0, 1.4)), LocalMap::kFree);
-  for (const double range : {1.66, 1.72, 1.8, 1.9}) {
+  for (const double range : {1.62, 1.66, 1.7, 1.9}) {
     EXPECT_EQ(map.at(polar(0.0, range)), LocalMap::kUnknown) << range;
   }
 }

@@ -285,7 +285,6 @@ Eigen::Isometry3d in3d(const Eigen::Isometry2d& pose) {
 MapLimits limitsOf(const Parameters& parameters) {
   MapLimits limits;
   limits.noise = parameters.noise;
-  limits.range_max = parameters.range_max;
   limits.free_range = freeRange(parameters.local_error, kTold);
   return limits;
 }

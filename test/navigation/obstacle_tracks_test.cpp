@@ -74,6 +74,19 @@ TEST(ObstacleTracks, AWallMayMoveAlongItself) {
   EXPECT_EQ(tracks.follow(0.2, {boxAt({3.5, 0.6}, 1.2, 0.5 * M_PI)}, none)[0].id, 2U);
 }
 
+/// Also while the camera turns.
+TEST(ObstacleTracks, AWallStaysAWallWhileTheCameraTurns) {
+  ObstacleTracks tracks(1);
+  const Eigen::Isometry2d turned = pose(0.0, 0.0, 1.2);
+  tracks.follow(0.0, {boxAt({3.0, 0.0}, 2.0, 0.5 * M_PI)}, pose(0.0, 0.0, 0.0));
+  const UprightBox part =
+      boxAt(turned.inverse() * Eigen::Vector2d(3.0, 0.8), 1.0, 0.5 * M_PI - 1.2);
+  EXPECT_EQ(tracks.follow(0.1, {part}, turned)[0].id, 1U);
+  const UprightBox rest =
+      boxAt(turned.inverse() * Eigen::Vector2d(3.0, 1.25), 0.8, 0.5 * M_PI - 1.2);
+  EXPECT_EQ(tracks.follow(0.2, {rest}, turned)[0].id, 1U);
+}
+
 TEST(ObstacleTracks, WhatIsNotSeenForASecondIsForgotten) {
   ObstacleTracks tracks(1);
   const Eigen::Isometry2d none = Eigen::Isometry2d::Identity();
@@ -108,6 +121,14 @@ TEST(ObstacleTracks, AThingIsToldOnceItWasSeenOften) {
   EXPECT_TRUE(tracks.follow(3.0, {thing}, none).empty());
 }
 
+/// While nobody listens things come and go.
+TEST(ObstacleTracks, NothingIsKnownAfterALongSilence) {
+  ObstacleTracks tracks(1);
+  const Eigen::Isometry2d none = Eigen::Isometry2d::Identity();
+  EXPECT_EQ(tracks.follow(0.0, {boxAt({2.0, 0.0})}, none)[0].id, 1U);
+  EXPECT_EQ(tracks.follow(100.0, {boxAt({2.0, 0.0})}, none)[0].id, 2U);
+}
+
 /// Images may be a long time apart.
 TEST(ObstacleTracks, SlowCamerasFollowThingsToo) {
   ObstacleTracks tracks(3);
@@ -115,6 +136,8 @@ TEST(ObstacleTracks, SlowCamerasFollowThingsToo) {
   tracks.follow(0.0, {boxAt({2.0, 0.0})}, none);
   tracks.follow(2.0, {boxAt({2.0, 0.0})}, none);
   ASSERT_EQ(tracks.follow(4.0, {boxAt({2.0, 0.0})}, none).size(), 1U);
+  tracks.follow(6.0, {}, none);
+  ASSERT_EQ(tracks.follow(8.0, {boxAt({2.0, 0.0})}, none).size(), 1U);
 }
 
 }  // namespace

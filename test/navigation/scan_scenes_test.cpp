@@ -36,7 +36,7 @@ class RecordedScans {
     const Detection& detection = detector.detect(depth, set.camera);
     RayTable rays;
     rays.build(set.camera);
-    ObstacleLimits limits;
+    ScanLimits limits;
     limits.range_max = set.range_max;
     const GroundScan scan = GroundScanner().scan(depth, rays, detection, limits);
     const Eigen::Isometry3d frame = groundFromOptical(detection.normal, detection.distance);

@@ -8,23 +8,26 @@
 #include <yaml-cpp/yaml.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <optional>
+#include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <string>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "support/ros_test.h"
 
 namespace dominant_plane_detection {
 
-/// What costmap_2d's VoxelLayer does with the sources of the recipe in docs/robot.md, which Debian
-/// does not have: it takes a cloud's points between two heights of the global frame; those of
-/// clearing sources clear the voxels on the way to them from the sensor, then those of marking
-/// sources mark theirs. A column without a marked voxel is free where one was cleared.
+/// What costmap_2d's VoxelLayer, which Debian does not have, does with the sources of the recipe in
+/// docs/robot.md: it takes a cloud's points between two heights of the global frame; those of
+/// clearing sources clear the voxels on the way to them from the sensor, but for the last two
+/// cells, then those of marking sources mark theirs. A column without a marked voxel is free where
+/// one was cleared. Other things that it does, such as footprints, are left out.
 class CostmapContract {
  public:
   enum Cost { kUnknown, kFree, kLethal };
@@ -55,7 +58,9 @@ class CostmapContract {
       }
     }
     for (const Source& source : sources_) {
-      if (source.clearing) forEachPoint(source, [&](const auto& o, const auto& p) { clear(o, p); });
+      if (!source.clearing) continue;
+      forEachPoint(source,
+                   [&](const auto& o, const auto& p) { clear(o, p, source.raytrace_range); });
     }
     for (const Source& source : sources_) {
       if (source.marking) forEachPoint(source, [&](const auto& o, const auto& p) { mark(o, p); });
@@ -130,8 +135,8 @@ class CostmapContract {
     for (; x != x.end(); ++x) {
       const Eigen::Vector3d point = sensor * Eigen::Vector3f(x[0], x[1], x[2]).cast<double>();
       if (point.z() < source.min_height || point.z() > source.max_height) continue;
-      const double range = source.marking ? source.obstacle_range : source.raytrace_range;
-      if ((point - sensor.translation()).norm() > range) continue;
+      const double away = (point - sensor.translation()).norm();
+      if (source.marking && away > source.obstacle_range) continue;
       visit(Eigen::Vector3d(sensor.translation()), point);
     }
   }
@@ -143,7 +148,10 @@ class CostmapContract {
     const int level = static_cast<int>(std::floor((z - origin_z_) / voxel_height_));
     return level < 0 || level >= voxels_ ? 0U : 1U << level;
   }
-  void clear(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  void clear(const Eigen::Vector3d& from, const Eigen::Vector3d& point, double range) {
+    const double away = (point - from).norm(), end = std::min(away - 2.0 * kCell, range);
+    if (end <= 0.0) return;
+    const Eigen::Vector3d to = from + end / away * (point - from);
     const int steps = static_cast<int>(std::ceil(2.0 * (to - from).norm() / kCell));
     for (int i = 0; i <= steps; ++i) {
       const Eigen::Vector3d at = from + (to - from) * i / steps;

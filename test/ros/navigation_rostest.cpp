@@ -3,6 +3,7 @@
 #include <dominant_plane_detection/ObstacleBoxArray.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <rosgraph_msgs/Log.h>
+#include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
@@ -62,6 +63,18 @@ class Navigation : public Robot {
     });
   }
 
+  /// Sends an image until the node has answered with a map of it, and knows where the robot is.
+  bool sendFrom(const Eigen::Isometry3d& base, const Listener<DominantPlane>& planes,
+                const Listener<nav_msgs::OccupancyGrid>& maps, const sensor_msgs::Image& image) {
+    const Eigen::Vector3d foot = base * Eigen::Vector3d(0.2, 0.0, 0.0);
+    return sendUntil(planes, image, [&](const DominantPlane&) {
+      if (maps.size() == 0 || maps.last()->header.stamp != stamp_) return false;
+      const nav_msgs::MapMetaData& map = maps.last()->info;
+      const double half = 0.5 * map.width * static_cast<double>(map.resolution);
+      return std::hypot(map.origin.position.x + half - foot.x(),
+                        map.origin.position.y + half - foot.y()) < 0.1;
+    });
+  }
   /// Sends an image until the node has answered with a map of it.
   template <typename Message>
   bool sendForLast(const Listener<DominantPlane>& planes, const Listener<Message>& results,
@@ -117,6 +130,9 @@ TEST_F(Navigation, WithOdometryTheMapKeepsWhatWasSeen) {
 
   const Eigen::Isometry3d begin = odometry(10.0, -3.0, 0.7);
   ASSERT_TRUE(drive(begin));
+  ASSERT_TRUE(sendFrom(begin, planes, maps, imageOf(boxSight())));
+  // More than once: an image of the floor may be looked at before the robot is known to have moved.
+  sendImages(imageOf(boxSight()), 5);
   ASSERT_TRUE(sendForLast(planes, maps, imageOf(boxSight())));
   EXPECT_EQ(maps.last()->header.frame_id, "odom");
   EXPECT_EQ(maps.last()->info.width, 120U);
@@ -130,10 +146,7 @@ TEST_F(Navigation, WithOdometryTheMapKeepsWhatWasSeen) {
   // It drives past the box: both it and the floor that was seen are behind, and where they were.
   const Eigen::Isometry3d end = odometry(11.5, -2.0, 2.2);
   ASSERT_TRUE(drive(end));
-  ASSERT_TRUE(sendUntil(planes, imageOf(floorSight()), [&](const DominantPlane& plane) {
-    return maps.last()->header.stamp == plane.header.stamp &&
-           std::abs(maps.last()->info.origin.position.x + 3.0 - inOdom(end, 0.0, 0.0).x()) < 0.06;
-  }));
+  ASSERT_TRUE(sendFrom(end, planes, maps, imageOf(floorSight())));
   EXPECT_EQ(stateAt(*maps.last(), inOdom(begin, 1.32, 0.0)), 100);
   EXPECT_EQ(stateAt(*maps.last(), inOdom(begin, 1.0, 0.0)), 0);
   EXPECT_EQ(stateAt(*maps.last(), inOdom(end, 1.32, 0.0)), 0);
@@ -147,6 +160,30 @@ TEST_F(Navigation, WithOdometryTheMapKeepsWhatWasSeen) {
            maps.last()->header.stamp == plane.header.stamp;
   }));
   EXPECT_EQ(stateAt(*maps.last(), inOdom(begin, 1.32, 0.0)), 100);
+}
+
+/// A robot that stands before a wall for longer than its map remembers.
+TEST_F(Navigation, WithoutPlanesTheMapFadesAndGoesOn) {
+  const Eigen::Isometry3d origin = odometry(0.0, 0.0, 0.0);
+  ASSERT_TRUE(drive(origin));
+  Listener<DominantPlane> planes(node_, "/forgetful/plane");
+  Listener<nav_msgs::OccupancyGrid> maps(node_, "/forgetful/local_map");
+  ASSERT_TRUE(ready(planes, maps));
+  ASSERT_TRUE(sendFrom(origin, planes, maps, imageOf(boxSight())));
+  sendImages(imageOf(boxSight()), 10);
+  ASSERT_TRUE(sendForLast(planes, maps, imageOf(boxSight())));
+  EXPECT_EQ(maps.last()->header.frame_id, "odom");
+  EXPECT_EQ(stateAt(*maps.last(), {1.52, 0.0}), 100);
+  EXPECT_EQ(stateAt(*maps.last(), {1.2, 0.0}), 0);
+  sensor_msgs::Image empty = imageOf(floorSight());
+  std::fill(empty.data.begin(), empty.data.end(), 0);
+  sendImages(empty, 25);
+  ASSERT_TRUE(sendForLast(planes, maps, empty));
+  EXPECT_EQ(stateAt(*maps.last(), {1.52, 0.0}), 100);
+  sendImages(empty, 80);
+  ASSERT_TRUE(sendForLast(planes, maps, empty));
+  EXPECT_EQ(stateAt(*maps.last(), {1.52, 0.0}), -1);
+  EXPECT_EQ(stateAt(*maps.last(), {1.2, 0.0}), -1);
 }
 
 TEST_F(Navigation, AMapThatIsTooLargeIsRefused) {
@@ -184,7 +221,7 @@ TEST_F(Navigation, ThingsAreBoxesThatKeepTheirNumbers) {
   EXPECT_NEAR(static_cast<double>(box.height), 0.2, 0.01);
   EXPECT_NEAR(static_cast<double>(box.distance), 1.3, 0.02);
   EXPECT_GT(box.pixels, 1000U);
-  ASSERT_TRUE(spinUntil([&] { return markers.size() > 0; }));
+  ASSERT_TRUE(spinUntil([&] { return markers.size() > 0 && !markers.last()->markers.empty(); }));
   const visualization_msgs::Marker& cube = markers.last()->markers.at(0);
   EXPECT_EQ(cube.type, visualization_msgs::Marker::CUBE);
   EXPECT_NEAR(cube.scale.x, box.size.x, 0.01);
@@ -205,6 +242,42 @@ TEST_F(Navigation, ThingsAreBoxesThatKeepTheirNumbers) {
   EXPECT_EQ(boxes.last()->boxes[0].id, box.id);
   EXPECT_GT(boxes.last()->boxes[0].images, box.images);
   EXPECT_NE(boxes.last()->boxes[1].id, box.id);
+}
+
+/// Odometry at 10 Hz has nothing for every third image of 30 Hz.
+TEST_F(Navigation, SlowOdometryKeepsNumbersToo) {
+  tf2_ros::TransformBroadcaster broadcaster;
+  Listener<DominantPlane> planes(node_, "/slow_odometry/plane");
+  Listener<ObstacleBoxArray> boxes(node_, "/slow_odometry/obstacle_boxes");
+  ASSERT_TRUE(ready(planes, boxes));
+  const sensor_msgs::Image image = imageOf(boxSight());
+  geometry_msgs::TransformStamped odometry = tf2::eigenToTransform(Eigen::Isometry3d::Identity());
+  odometry.header.frame_id = "base_link";
+  odometry.child_frame_id = "slow_odom";
+  int images = 0;
+  const auto sendOdometry = [&] {
+    if (images++ % 3 != 0) return;
+    odometry.header.stamp = stamp_ + ros::Duration(1.0 / 30.0);
+    broadcaster.sendTransform(odometry);
+    spinUntil([&] { return buffer_.canTransform("slow_odom", "optical", odometry.header.stamp); });
+  };
+  sendOdometry();
+  ASSERT_TRUE(sendUntil(planes, image, [&](const DominantPlane&) {
+    sendOdometry();
+    return boxes.size() > 0 && !boxes.last()->boxes.empty();
+  }));
+  // At the start odometry is not there yet, and what is followed without it is not the same.
+  std::uint32_t id = 0;
+  int same = 0;
+  EXPECT_TRUE(sendUntil(planes, image,
+                        [&](const DominantPlane&) {
+                          sendOdometry();
+                          const auto& last = boxes.last()->boxes;
+                          same = last.size() == 1 && last[0].id == id ? same + 1 : 0;
+                          id = last.size() == 1 ? last[0].id : 0;
+                          return same >= 60;
+                        }))
+      << "the same thing in " << same << " images";
 }
 
 /// The recipe of docs/robot.md: what it says is what costmap_2d needs.

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "navigation/ground_frame.h"
