@@ -96,7 +96,10 @@ void KinectStream::convert(std::uint16_t* readings) {
 
 bool KinectStream::hasExposure() const { return optionalFunctions().set_exposure != nullptr; }
 
-bool KinectStream::onSetting() { return !running_ || setSettings(); }
+/// An exposure that is refused refuses nothing else.
+bool KinectStream::onSetting(int id) {
+  return !running_ || setSettings() || id != ONI_STREAM_PROPERTY_EXPOSURE;
+}
 
 bool KinectStream::setSettings() {
   KinectConnection& connection = device_.connection();

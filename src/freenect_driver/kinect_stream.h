@@ -20,7 +20,7 @@ class KinectStream : public openni2_plugin::PluginStream, private FrameSink {
   bool running() const override { return running_; }
   double focalLength(bool vertical) const override;
   bool hasExposure() const override;
-  bool onSetting() override;
+  bool onSetting(int id) override;
   void* buffer() override;
   void finished(std::uint64_t time) override;
 

@@ -181,6 +181,7 @@ void DeviceSession::connect(const std::string& uri) {
     ROS_ERROR_STREAM("Refused settings of " << describe(camera_->description()) << ": " << refusal
                                             << "; what it does by itself is used.");
   }
+  motor_.begin();
   callbacks_.opened(*camera_);
   const bool accelerometer = camera_->hasAccelerometer(), motor = camera_->hasMotor();
   {

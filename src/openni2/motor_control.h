@@ -17,6 +17,8 @@ struct MotorOrders {
 /// Carries orders out. Of the session's thread.
 class MotorControl {
  public:
+  /// Another camera is open.
+  void begin() { told_ = false; }
   /// What the camera does not do is said in the log; that it has no motor is said once.
   void follow(CameraDevice& camera, const MotorOrders& orders);
 

@@ -92,7 +92,7 @@ OniStatus PluginStream::setSetting(std::atomic<int>& setting, int id, const void
   const OniStatus status = takeProperty(value, data, size);
   if (status != ONI_STATUS_OK) return status;
   const int old = setting.exchange(value);
-  if (onSetting()) return ONI_STATUS_OK;
+  if (onSetting(id)) return ONI_STATUS_OK;
   setting = old;
   return ONI_STATUS_ERROR;
 }

@@ -28,8 +28,9 @@ class PluginStream : public oni::driver::StreamBase {
   /// @return whether the device lets exposure or gain of its colour camera be set.
   virtual bool hasExposure() const { return false; }
   virtual bool hasGain() const { return false; }
-  /// A setting of the colour camera has changed. @return whether the device follows.
-  virtual bool onSetting() { return true; }
+  /// A setting of the colour camera has changed.
+  /// @param id of its property. @return whether the device follows it.
+  virtual bool onSetting(int /*id*/) { return true; }
 
   OniSensorType sensor() const { return sensor_; }
   const OniVideoMode& mode() const { return mode_; }

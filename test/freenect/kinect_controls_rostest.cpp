@@ -4,6 +4,7 @@
 #include <sensor_msgs/Imu.h>
 #include <std_msgs/Float64.h>
 #include <std_msgs/UInt16.h>
+#include <std_srvs/Trigger.h>
 
 #include <cmath>
 
@@ -111,6 +112,11 @@ TEST_F(KinectControls, WithoutItsMotorACameraIsACameraStill) {
   const std::size_t more = images.size() + 30;
   ASSERT_TRUE(spinUntil([&] { return images.size() >= more; }));
   EXPECT_EQ(log.count("it has no motor and no light"), 1U);
+  // And again of the next camera that is opened.
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(ros::service::call("/camera/reset", reset) && reset.response.success);
+  led.publish(std_msgs::UInt16());
+  EXPECT_TRUE(spinUntil([&] { return log.count("it has no motor and no light") == 2; }));
   EXPECT_EQ(readings.size(), 0U);
   EXPECT_EQ(angles.size(), 0U);
   Diagnostics diagnostics(node_);

@@ -4,7 +4,9 @@
 #include <sensor_msgs/Image.h>
 #include <std_srvs/Trigger.h>
 
+#include <algorithm>
 #include <future>
+#include <iterator>
 #include <utility>
 
 #include "support/diagnostics.h"
@@ -93,7 +95,12 @@ TEST_F(DriverReset, UnloadingAnswersWhoWaits) {
   ASSERT_TRUE(spinUntil([] { return serial().empty(); }));
   ASSERT_TRUE(manager_.unload("/camera/driver"));
   ASSERT_TRUE(spinUntil([&] { return isReady(first) && isReady(second); }));
-  EXPECT_FALSE(first.get().success && second.get().success);
+  // One may have been done before.
+  const Answer answers[] = {first.get(), second.get()};
+  EXPECT_TRUE(std::any_of(
+      std::begin(answers), std::end(answers),
+      [](const Answer& answer) { return answer.message.find("unloaded") != std::string::npos; }))
+      << answers[0].message << "; " << answers[1].message;
   // And the camera is anybody's.
   ASSERT_TRUE(manager_.loadDriver("/camera", "virtual://rubbish_bin?serial=R4&slow=1"));
   EXPECT_TRUE(spinUntil([] { return serial() == "R4"; }));
