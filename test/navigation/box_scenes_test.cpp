@@ -147,6 +147,7 @@ void print(const char* name, const BoxFigures& f) {
 TEST(BoxScenes, ThingsOfTenCentimetresAreFoundWithTheirSizes) {
   const BoxFigures f = figuresOf(ErrorKind::kSmooth, longForm(40, 400));
   print("smooth errors", f);
+  ASSERT_GT(f.things, f.images);
   EXPECT_GE(f.placed, 0.95 * f.things);
   EXPECT_GE(f.sized, 0.95 * f.placed);
   EXPECT_LE(f.ghosts, 0.05 * f.images);
@@ -160,7 +161,7 @@ TEST(BoxScenes, ErrorsOfSensorsAreAsLargeAsThat) {
     const BoxFigures f = figuresOf(error, longForm(20, 400));
     print(name, f);
     EXPECT_GE(f.found, 0.8 * f.things) << name;
-    EXPECT_LE(f.ghosts, 3 * f.images) << name;
+    EXPECT_LE(f.ghosts, 2.5 * f.images) << name;
   }
 }
 
@@ -192,8 +193,10 @@ bool isOfGround(const UprightBox& box, const ReferenceSet& set, const ReferenceI
 
 /// Boxes on floors of recordings are of things.
 TEST(BoxScenes, FloorsOfRecordingsHaveFewBoxesOfNothing) {
-  for (const ReferenceSet& set : {loadRobotLab(), loadCabinet()}) {
-    if (set.images.empty()) GTEST_SKIP() << "there is no " << set.name;
+  const std::vector<ReferenceSet> sets = {loadRobotLab(), loadCabinet()};
+  if (sets[0].images.empty() && sets[1].images.empty()) GTEST_SKIP() << "there are no recordings";
+  for (const ReferenceSet& set : sets) {
+    if (set.images.empty()) continue;
     Parameters parameters;
     parameters.range_min = set.range_min;
     parameters.range_max = set.range_max;
