@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "navigation/ground_sight.h"
+#include "navigation/planar_pose.h"
 #include "navigation/told_height.h"
 
 namespace dominant_plane_detection {
@@ -50,18 +51,11 @@ GroundSight blindSight() {
   return sight;
 }
 
-Eigen::Isometry2d pose(double x, double y, double yaw) {
-  Eigen::Isometry2d result = Eigen::Isometry2d::Identity();
-  result.translation() = Eigen::Vector2d(x, y);
-  result.linear() = Eigen::Rotation2Dd(yaw).toRotationMatrix();
-  return result;
-}
-
 /// A post with free floor before it, whatever the camera's pitch and roll and wherever it is.
 TEST(LocalMap, WhatIsSeenIsFreeOrOccupiedAndTheRestIsUnknown) {
   for (const double memory : {0.0, 10.0}) {
     for (const double roll : {-10.0, 0.0, 10.0}) {
-      for (const auto& place : {pose(0.0, 0.0, 0.0), pose(31.27, -8.4, 2.0)}) {
+      for (const auto& place : {planarPose(0.0, 0.0, 0.0), planarPose(31.27, -8.4, 2.0)}) {
         const double direction = 8.0 * kDegree;
         GroundSight sight(20.0 * kDegree, roll * kDegree);
         sight.addPost(direction, 1.52, 0.0, 0.5);
@@ -301,7 +295,7 @@ TEST(LocalMap, MovesWithTheCamera) {
   Map map;
   map.add(sight);
   for (double x = 0.0; x < 4.0; x += 0.13) {
-    map.add(nothing, pose(x, -0.3 * x, 0.5));
+    map.add(nothing, planarPose(x, -0.3 * x, 0.5));
     EXPECT_LE((map.map().grid().origin() + Eigen::Vector2d(0.5 * kSize, 0.5 * kSize) -
                Eigen::Vector2d(x, -0.3 * x))
                   .cwiseAbs()
@@ -310,8 +304,8 @@ TEST(LocalMap, MovesWithTheCamera) {
     EXPECT_EQ(map.at(polar(0.0, 1.52)), LocalMap::kOccupied) << x;
   }
   // What left it is not what comes in on the other side, nor there when it comes back.
-  map.add(nothing, pose(5.0, 0.0, 0.0));
-  map.add(nothing, pose(0.0, 0.0, 0.0));
+  map.add(nothing, planarPose(5.0, 0.0, 0.0));
+  map.add(nothing, planarPose(0.0, 0.0, 0.0));
   EXPECT_EQ(map.at(polar(0.0, 1.52)), LocalMap::kUnknown);
   int known = 0;
   for (int y = 0; y < map.map().grid().cells(); ++y) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "navigation/planar_pose.h"
+
 namespace dominant_plane_detection {
 namespace {
 
@@ -18,19 +20,12 @@ UprightBox boxAt(const Eigen::Vector2d& centre, double length = 0.2, double yaw 
   return box;
 }
 
-Eigen::Isometry2d pose(double x, double y, double yaw) {
-  Eigen::Isometry2d result = Eigen::Isometry2d::Identity();
-  result.translation() = Eigen::Vector2d(x, y);
-  result.linear() = Eigen::Rotation2Dd(yaw).toRotationMatrix();
-  return result;
-}
-
 /// A camera that turns and drives, fast: things are where they were.
 TEST(ObstacleTracks, OdometryKeepsIdentities) {
   const std::vector<Eigen::Vector2d> things = {{2.0, 0.5}, {2.5, -0.4}, {3.0, 0.1}};
   ObstacleTracks tracks(1);
   for (int i = 0; i < 20; ++i) {
-    const Eigen::Isometry2d camera = pose(0.1 * i, 0.02 * i, 0.15 * i);
+    const Eigen::Isometry2d camera = planarPose(0.1 * i, 0.02 * i, 0.15 * i);
     std::vector<UprightBox> boxes;
     for (std::size_t k = 0; k < things.size(); ++k) {
       boxes.push_back(boxAt(camera.inverse() * things[(k + i) % things.size()]));
@@ -77,8 +72,8 @@ TEST(ObstacleTracks, AWallMayMoveAlongItself) {
 /// Also while the camera turns.
 TEST(ObstacleTracks, AWallStaysAWallWhileTheCameraTurns) {
   ObstacleTracks tracks(1);
-  const Eigen::Isometry2d turned = pose(0.0, 0.0, 1.2);
-  tracks.follow(0.0, {boxAt({3.0, 0.0}, 2.0, 0.5 * M_PI)}, pose(0.0, 0.0, 0.0));
+  const Eigen::Isometry2d turned = planarPose(0.0, 0.0, 1.2);
+  tracks.follow(0.0, {boxAt({3.0, 0.0}, 2.0, 0.5 * M_PI)}, planarPose(0.0, 0.0, 0.0));
   const UprightBox part =
       boxAt(turned.inverse() * Eigen::Vector2d(3.0, 0.8), 1.0, 0.5 * M_PI - 1.2);
   EXPECT_EQ(tracks.follow(0.1, {part}, turned)[0].id, 1U);
