@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "doctor/input_rules.h"
+#include "doctor/stamp_offset.h"
 #include "ros/camera_conversion.h"
 #include "ros/queued_call.h"
 #include "ros/topic_facts.h"
@@ -21,6 +22,12 @@ constexpr double kThrottle = 5.0;  // [s] between lines of the same kind
 constexpr std::uint32_t kQueue = 5;
 
 double steadyNow() { return ros::SteadyTime::now().toSec(); }
+
+void keepLatest(std::vector<double>& stamps, const ros::Time& stamp) {
+  constexpr std::size_t kKept = 30;
+  if (stamps.size() == kKept) stamps.erase(stamps.begin());
+  stamps.push_back(stamp.toSec());
+}
 
 }  // namespace
 
@@ -41,7 +48,9 @@ void DetectionInputs::subscribe() {
     const image_transport::TransportHints hints("raw", ros::TransportHints().tcpNoDelay(),
                                                 private_node_);
     images_ = transport_.subscribe(topics::kDepth, kQueue, &DetectionInputs::onImage, this, hints);
-    infos_ = node_.subscribe(image_transport::getCameraInfoTopic(images_.getTopic()), kInfos,
+    // Not beside images_.getTopic(): that is a topic of the transport, one level below.
+    const std::string depth = node_.resolveName(topics::kDepth);
+    infos_ = node_.subscribe(image_transport::getCameraInfoTopic(depth), kInfos,
                              &DetectionInputs::onInfo, this);
   } else {
     points_ = node_.subscribe(topics::kPoints, kQueue, &DetectionInputs::onPoints, this);
@@ -63,6 +72,8 @@ void DetectionInputs::unsubscribe() {
   known_problem_ = InputWatch::Problem::kNone;
   problem_.reset();
   seen_ = InputFacts();
+  image_stamps_.clear();
+  info_stamps_.clear();
 }
 
 void DetectionInputs::onImage(const sensor_msgs::ImageConstPtr& image) {
@@ -79,13 +90,13 @@ void DetectionInputs::look(const sensor_msgs::Image& image) {
   seen_.encoding_is_depth = isDepthEncoding(image.encoding);
   seen_.width = static_cast<int>(image.width);
   seen_.height = static_cast<int>(image.height);
-  seen_.info_offset = info_stamp_.toSec() - image.header.stamp.toSec();
+  keepLatest(image_stamps_, image.header.stamp);
 }
 
 void DetectionInputs::onInfo(const sensor_msgs::CameraInfoConstPtr& info) {
   ++seen_.info.messages;
   seen_.camera = cameraInfoFacts(*info, rectified_);
-  info_stamp_ = info->header.stamp;
+  keepLatest(info_stamps_, info->header.stamp);
   onPair(matcher_.addInfo(info, steadyNow()));
 }
 
@@ -156,7 +167,7 @@ void DetectionInputs::refuse(const std::string& what, const std::string& error) 
   InputFacts refused = facts();
   refused.refusal = error;
   const Findings findings = examineInput(refused);
-  counts_.refusal = findings.empty() ? error : findings.front().text;
+  counts_.refusal = findings.empty() ? Finding{Code::kUnusableImages, error} : findings.front();
   ROS_WARN_STREAM_THROTTLE(kThrottle, "Dropped " << what << ": " << error << ".");
 }
 
@@ -183,7 +194,6 @@ InputFacts DetectionInputs::facts() const {
   facts.depth.name = facts.from_points ? names.points : names.depth;
   facts.depth.messages = counts_.received;
   facts.info.name = names.info;
-  facts.info_offset.reset();
   return facts;
 }
 
@@ -191,13 +201,15 @@ std::optional<Finding> DetectionInputs::describe(InputWatch::Problem problem) co
   if (problem == InputWatch::Problem::kNone) return std::nullopt;
   InputFacts silent = facts();
   const std::size_t infos = silent.info.messages;
-  silent.depth = topicFacts(silent.depth.name,
+  const auto published = publishedTopics();
+  silent.depth = topicFacts(published, silent.depth.name,
                             silent.from_points ? "sensor_msgs/PointCloud2" : "sensor_msgs/Image");
+  takeTransport(published, images_.getTopic(), silent.depth);
   if (problem == InputWatch::Problem::kUnmatched) {
     silent.depth.messages = 1;
-    silent.info = topicFacts(silent.info.name, "sensor_msgs/CameraInfo");
+    silent.info = topicFacts(published, silent.info.name, "sensor_msgs/CameraInfo");
     silent.info.messages = infos;
-    silent.info_offset = seen_.info_offset;
+    silent.info_offset = stampOffset(image_stamps_, info_stamps_);
   }
   const Findings findings = examineInput(silent);
   return findings.empty() ? std::nullopt : std::optional<Finding>(findings.front());

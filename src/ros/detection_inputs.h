@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "doctor/facts.h"
 #include "doctor/finding.h"
@@ -44,7 +45,8 @@ class DetectionInputs {
     std::uint64_t received = 0;
     std::uint64_t overtaken = 0;  ///< a newer one came before they could be looked at
     std::uint64_t refused = 0;    ///< malformed
-    std::string refusal;          ///< why the last one was, the likeliest cause and what to change
+    /// Why the last one was, the likeliest cause and what to change.
+    Finding refusal{Code::kUnusableImages, ""};
   };
 
   /// @param node topics are relative to it.
@@ -115,8 +117,8 @@ class DetectionInputs {
   InputWatch watch_;
   InputWatch::Problem known_problem_ = InputWatch::Problem::kNone;
   std::optional<Finding> problem_;
-  ros::Time info_stamp_;  ///< of the last camera_info
-  InputFacts seen_;       ///< of the last image and camera_info
+  InputFacts seen_;                                 ///< of the last image and camera_info
+  std::vector<double> image_stamps_, info_stamps_;  ///< [s] the latest
 };
 
 }  // namespace dominant_plane_detection

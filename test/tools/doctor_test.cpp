@@ -4,6 +4,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
@@ -20,6 +21,7 @@
 #include "support/command.h"
 #include "support/oni_recording.h"
 #include "support/recordings.h"
+#include "tools/doctor_sample.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -280,6 +282,41 @@ TEST_F(Doctor, NoDepthTopic) {
   expectOnly(doctor(plant(fault)), "no-images", {"/camera/rgb/image_raw", "record.launch"});
   expectOnly(doctor(path("drive.bag") + " --topic /depth/image_raw"), "no-images",
              {"/depth/image_raw", "/camera/depth/image_raw"});
+}
+
+TEST_F(Doctor, PackedDepth) {
+  Fault fault;
+  fault.image = [](sensor_msgs::Image&) { return false; };
+  const std::string bag = plant(fault);
+  {
+    rosbag::Bag out(bag, rosbag::bagmode::Append);
+    sensor_msgs::CompressedImage packed;
+    packed.format = "16UC1; compressedDepth";
+    out.write("/camera/depth/image_raw/compressedDepth", ros::Time(1.6e9), packed);
+  }
+  const Words words{"republish compressedDepth in:=/camera/depth/image_raw raw"};
+  expectOnly(doctor(bag), "no-images", words);
+  expectOnly(doctor(bag + " --topic /camera/depth/image_raw"), "no-images", words);
+  expectOnly(doctor(bag + " --topic /camera/depth/image_raw/compressedDepth"), "topics-swapped",
+             words);
+}
+
+TEST_F(Doctor, ACorrectionIsApplied) {
+  std::ofstream(path("correction.yaml")) << "columns: 1\nrows: 1\n"
+                                            "inverse_depth: [0.09]\n";
+  const std::string arguments = plantMount(0.45, 0.0) + " --set base_frame=base_link";
+  const std::string file = path("correction.yaml");
+  expectOnly(doctor(arguments + " --correction " + file), "tf-disagrees", {});
+  expectOnly(doctor(arguments + " --set correction=" + file), "tf-disagrees", {});
+  expectHealthy(doctor(arguments + " --set correction="), "16 with a plane");
+  EXPECT_EQ(doctor(arguments + " --correction /no/such.yaml").status, 2);
+}
+
+TEST(DoctorSample, IsSpreadOverAllImages) {
+  for (const std::size_t few : {0U, 1U, 60U}) EXPECT_EQ(sampleStep(few), 1U) << few;
+  EXPECT_EQ(sampleStep(61), 2U);
+  EXPECT_EQ(sampleStep(120), 2U);
+  EXPECT_EQ(sampleStep(121), 3U);
 }
 
 TEST_F(Doctor, WhatItCannotLookAtIsNoFinding) {
