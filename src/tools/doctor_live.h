@@ -13,7 +13,7 @@ struct LiveOptions {
   std::string topic;                  ///< of depth; empty: what the detections take
   std::string node;                   ///< of a detection; empty: each
   std::optional<CameraModel> camera;  ///< instead of any camera_info
-  double duration = 6.0;              ///< [s] to listen
+  double duration = 10.0;             ///< [s] to listen
 };
 
 /// Listens to the detections that run, which it wakes, and to what they take.

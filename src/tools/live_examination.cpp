@@ -77,7 +77,8 @@ DoctorReport LiveExamination::report(const ClockFacts& clock) const {
   add(examineRobot(robot()));
   const std::string error = status_.lastingError(name_);
   if (report.findings.empty() && !error.empty()) {
-    add({{Code::kUnusableImages, "The detection reports an error in /diagnostics: " + error}});
+    add({{Code::kUnusableImages,
+          "The detection reports an error in /diagnostics: " + inOneLine(error)}});
   }
   return report;
 }

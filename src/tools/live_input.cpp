@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "doctor/finding.h"
 #include "doctor/stamp_offset.h"
 
 namespace dominant_plane_detection {
@@ -19,7 +20,7 @@ LiveInput::LiveInput(ros::NodeHandle& node, const DoctorSettings& settings,
   try {
     subscribe(node);
   } catch (const image_transport::Exception& error) {
-    error_ = error.what();
+    error_ = inOneLine(error.what());
   }
 }
 

@@ -231,6 +231,8 @@ TEST(Codes, AreUniqueAndAllInTheDocument) {
   }
   EXPECT_EQ(asLine({Code::kMirrored, "text"}), "mirrored: text");
   EXPECT_STREQ(codeName(Code::kNoClock), "no-clock");
+  EXPECT_EQ(inOneLine("Unable to load:\n-----\nno such - thing\n-----\n"),
+            "Unable to load: no such - thing");
 }
 
 }  // namespace
