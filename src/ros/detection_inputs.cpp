@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "doctor/input_rules.h"
-#include "doctor/stamp_offset.h"
 #include "ros/camera_conversion.h"
 #include "ros/queued_call.h"
 #include "ros/topic_facts.h"
@@ -23,12 +22,6 @@ constexpr std::uint32_t kQueue = 5;
 
 double steadyNow() { return ros::SteadyTime::now().toSec(); }
 
-void keepLatest(std::vector<double>& stamps, const ros::Time& stamp) {
-  constexpr std::size_t kKept = 30;
-  if (stamps.size() == kKept) stamps.erase(stamps.begin());
-  stamps.push_back(stamp.toSec());
-}
-
 }  // namespace
 
 DetectionInputs::DetectionInputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
@@ -38,7 +31,8 @@ DetectionInputs::DetectionInputs(const ros::NodeHandle& node, const ros::NodeHan
       transport_(node),
       kind_(kind),
       rectified_(rectified),
-      callback_(std::move(callback)) {}
+      callback_(std::move(callback)),
+      seen_(rectified) {}
 
 DetectionInputs::~DetectionInputs() { unsubscribe(); }
 
@@ -71,32 +65,18 @@ void DetectionInputs::unsubscribe() {
   matcher_ = CameraInfoMatcher();
   known_problem_ = InputWatch::Problem::kNone;
   problem_.reset();
-  seen_ = InputFacts();
-  image_stamps_.clear();
-  info_stamps_.clear();
+  seen_.forget();
 }
 
 void DetectionInputs::onImage(const sensor_msgs::ImageConstPtr& image) {
   ++counts_.received;
   watch_.sawImage(steadyNow());
-  look(*image);
+  seen_.add(*image);
   onPair(matcher_.addImage(image, steadyNow()));
 }
 
-/// Keeps what is said of an image where something is wrong.
-void DetectionInputs::look(const sensor_msgs::Image& image) {
-  seen_.frame_id = image.header.frame_id;
-  seen_.encoding = image.encoding;
-  seen_.encoding_is_depth = isDepthEncoding(image.encoding);
-  seen_.width = static_cast<int>(image.width);
-  seen_.height = static_cast<int>(image.height);
-  keepLatest(image_stamps_, image.header.stamp);
-}
-
 void DetectionInputs::onInfo(const sensor_msgs::CameraInfoConstPtr& info) {
-  ++seen_.info.messages;
-  seen_.camera = cameraInfoFacts(*info, rectified_);
-  keepLatest(info_stamps_, info->header.stamp);
+  seen_.add(*info);
   onPair(matcher_.addInfo(info, steadyNow()));
 }
 
@@ -189,7 +169,7 @@ DetectionInputs::Topics DetectionInputs::topics() const {
 /// @return what has been seen, without what the master knows.
 InputFacts DetectionInputs::facts() const {
   const Topics names = topics();
-  InputFacts facts = seen_;
+  InputFacts facts = seen_.facts();
   facts.from_points = kind_ == InputKind::kPoints;
   facts.depth.name = facts.from_points ? names.points : names.depth;
   facts.depth.messages = counts_.received;
@@ -209,7 +189,7 @@ std::optional<Finding> DetectionInputs::describe(InputWatch::Problem problem) co
     silent.depth.messages = 1;
     silent.info = topicFacts(published, silent.info.name, "sensor_msgs/CameraInfo");
     silent.info.messages = infos;
-    silent.info_offset = stampOffset(image_stamps_, info_stamps_);
+    silent.info_offset = seen_.infoOffset();
   }
   const Findings findings = examineInput(silent);
   return findings.empty() ? std::nullopt : std::optional<Finding>(findings.front());

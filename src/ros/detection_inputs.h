@@ -8,7 +8,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "doctor/facts.h"
 #include "doctor/finding.h"
@@ -18,6 +17,7 @@
 #include "ros/cloud_conversion.h"
 #include "ros/depth_conversion.h"
 #include "ros/input_watch.h"
+#include "ros/seen_inputs.h"
 
 namespace dominant_plane_detection {
 
@@ -79,7 +79,6 @@ class DetectionInputs {
   Topics topics() const;
 
  private:
-  void look(const sensor_msgs::Image& image);
   void onImage(const sensor_msgs::ImageConstPtr& image);
   void onInfo(const sensor_msgs::CameraInfoConstPtr& info);
   void onPair(const std::optional<CameraInfoMatcher::Pair>& pair);
@@ -117,8 +116,7 @@ class DetectionInputs {
   InputWatch watch_;
   InputWatch::Problem known_problem_ = InputWatch::Problem::kNone;
   std::optional<Finding> problem_;
-  InputFacts seen_;                                 ///< of the last image and camera_info
-  std::vector<double> image_stamps_, info_stamps_;  ///< [s] the latest
+  SeenInputs seen_;
 };
 
 }  // namespace dominant_plane_detection
