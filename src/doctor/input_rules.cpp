@@ -88,8 +88,7 @@ std::optional<Finding> findNoImages(const InputFacts& input) {
                  "Nothing comes on " + depth.name +
                      ", although it is published: the camera is not plugged in, does not stream, "
                      "or its bag has ended or is paused; its driver's line in /diagnostics says "
-                     "more. Topics of "
-                     "this type: " +
+                     "more. Topics of this type: " +
                      listed(depth.others) + "."};
 }
 

@@ -26,10 +26,11 @@ DoctorSettings settingsOf(const std::string& node, const SourceArguments& argume
   return settings;
 }
 
-/// @return whether images are to be looked at otherwise than the node does.
-bool overrides(const SourceArguments& arguments) {
-  return !arguments.params.empty() || !arguments.sensor.empty() || !arguments.settings.empty() ||
-         !arguments.range.empty() || !arguments.algorithm.empty() || !arguments.correction.empty();
+/// @return whether other images are to be looked at than the node's, or otherwise than it does.
+bool overrides(const SourceArguments& arguments, const LiveOptions& options) {
+  return !options.topic.empty() || options.camera || !arguments.params.empty() ||
+         !arguments.sensor.empty() || !arguments.settings.empty() || !arguments.range.empty() ||
+         !arguments.algorithm.empty() || !arguments.correction.empty();
 }
 
 }  // namespace
@@ -40,7 +41,7 @@ LiveExamination::LiveExamination(ros::NodeHandle& node, const DetectionStatus& s
     : name_(name),
       status_(status),
       settings_(settingsOf(name, arguments)),
-      tries_(name.empty() || overrides(arguments)) {
+      tries_(name.empty() || overrides(arguments, options)) {
   topic_ = status.value(name, settings_.points ? keys::kPointsTopic : keys::kDepthTopic);
   std::string info = status.value(name, keys::kInfoTopic);
   if (!options.topic.empty()) {
