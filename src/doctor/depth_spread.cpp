@@ -61,8 +61,11 @@ bool isPlausible(const DepthSpread& spread) {
   if (!spread.known) return true;
   if (spread.near < kNearest || spread.median < kNearestMost) return false;
   if (spread.median > kFarthest) return false;
-  const bool nothing_near = spread.near > kNothingNear;
-  return !(nothing_near && (spread.far > kFarthest || spread.multiples_of_5));
+  return !(spread.near > kNothingNear && spread.far > kFarthest) && !isFarInSteps(spread);
+}
+
+bool isFarInSteps(const DepthSpread& spread) {
+  return spread.known && spread.near > kNothingNear && spread.multiples_of_5;
 }
 
 bool isImpossible(const DepthSpread& spread) {

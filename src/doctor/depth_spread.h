@@ -38,6 +38,8 @@ DepthSpread spreadOf(const DepthView& depth);
 
 /// Whether a Kinect-class camera can have seen that; it sees what is 0.3 to 10 m away.
 bool isPlausible(const DepthSpread& spread);
+/// Whether it is all far away, in steps of 5 mm, as readings in units of 1/5000 m are.
+bool isFarInSteps(const DepthSpread& spread);
 /// Whether no such camera can: by far.
 bool isImpossible(const DepthSpread& spread);
 

@@ -16,6 +16,8 @@ struct TopicFacts {
   std::string type;                 ///< as which it is published; empty: nobody does
   std::size_t messages = 0;         ///< [#] that came
   std::vector<std::string> others;  ///< topics of the expected type that there are
+  bool known = true;                ///< false: the master, which knows types, does not answer
+  std::string packed = {};          ///< depth that an image_transport packed, in a recording
 };
 
 /// What a camera_info says of the images.
@@ -40,8 +42,10 @@ struct InputFacts {
   int width = 0;                          ///< [px] of an image
   int height = 0;                         ///< [px]
   std::optional<CameraInfoFacts> camera;  ///< that came with or beside the image
-  std::string refusal;  ///< why images cannot be used: what was expected and what came
-  /// [s] from an image's stamp to that of the nearest camera_info, where none has the same
+  std::string refusal;             ///< why images cannot be used: what was expected and what came
+  std::string subscription_error;  ///< why nothing is subscribed
+  /// [s] from an image's stamp to that of the nearest camera_info, the least of all images that
+  /// have none of their own, where most have not
   std::optional<double> info_offset;
   std::optional<double> age;  ///< [s] of images when they come, by this computer's clock
 };
@@ -54,9 +58,10 @@ struct ClockFacts {
 
 /// What tf says of the camera, and how the plane differs.
 struct RobotFacts {
-  std::string base_frame;  ///< empty: nothing is wanted of tf
-  std::string tf_problem;  ///< why most images have no transform; empty where they have
-  std::string mount;       ///< how the plane differs from tf's ground; empty where it does not
+  std::string base_frame;   ///< empty: nothing is wanted of tf
+  std::string tf_problem;   ///< why most images have no transform; empty where they have
+  bool tf_is_late = false;  ///< tf has the frames, but not at the times of most of these
+  std::string mount;        ///< how the plane differs from tf's ground; empty where it does not
   bool mount_is_height = false;         ///< that is of a plane at quite another height
   std::size_t planes_at_tf_height = 0;  ///< [#]
   std::size_t planes_elsewhere = 0;     ///< [#] at quite another height

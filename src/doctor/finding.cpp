@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <sstream>
 
 namespace dominant_plane_detection {
 
@@ -9,6 +10,15 @@ const char* codeName(Code code) { return kCodeNames[static_cast<std::size_t>(cod
 
 std::string asLine(const Finding& finding) {
   return std::string(codeName(finding.code)) + ": " + finding.text;
+}
+
+std::string inOneLine(const std::string& text) {
+  std::string line, word;
+  for (std::istringstream words(text); words >> word;) {
+    const bool is_rule = word.size() > 1 && word.find_first_not_of('-') == std::string::npos;
+    if (!is_rule) line += (line.empty() ? "" : " ") + word;
+  }
+  return line;
 }
 
 bool hasCode(const Findings& findings, Code code) {

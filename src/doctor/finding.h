@@ -46,6 +46,9 @@ struct Finding {
 /// @return "code: text"
 std::string asLine(const Finding& finding);
 
+/// @return what somebody else says over several lines, without the rules of dashes between them.
+std::string inOneLine(const std::string& text);
+
 using Findings = std::vector<Finding>;
 
 /// @return whether one of them has the code.

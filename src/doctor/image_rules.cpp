@@ -25,16 +25,12 @@ std::optional<Finding> findMirrored(const ShadowSides& sides) {
 const Detection& ImageStudy::add(const DepthView& depth, const CameraModel& camera,
                                  const Prior& prior) {
   const Detection& detection = detector_.detect(depth, camera, prior);
-  trials_.add(depth, camera, prior, detection);
-  scales_.add(depth, camera, prior);
+  ++images_;
+  if (detection.found()) ++planes_;
+  if (tries_) trials_.add(depth, camera, prior, detection);
+  scales_.add(depth, camera, prior, detection);
   shadows_.add(shadowSides(depth, camera));
   return detection;
-}
-
-Findings ImageStudy::findingsWithoutTrials() const {
-  if (const auto scale = scales_.finding()) return {*scale};
-  if (const auto mirrored = findMirrored(shadows_)) return {*mirrored};
-  return {};
 }
 
 /// One cause for one symptom: in a wrong unit the ground is out of range, too, and in an image that

@@ -1,5 +1,6 @@
 #include "doctor/image_trials.h"
 
+#include <cmath>
 #include <cstdio>
 
 namespace dominant_plane_detection {
@@ -11,17 +12,24 @@ constexpr std::size_t kFewest = 2;  // [#] images without a plane
 /// Planes in more than one of so many images: then nothing keeps them away for good.
 constexpr std::size_t kNearlyNone = 4;
 
+/// Where tf knows the camera's height, a plane at another one is a ceiling or a table.
+bool isAtExpectedHeight(const Detection& detection, const Prior& prior) {
+  if (!prior.expected_height) return true;
+  return std::abs(detection.distance - prior.expected_height->height) <=
+         prior.expected_height->tolerance;
+}
+
 /// @return up of a camera that is turned by half a turn about its optical axis.
 Eigen::Vector3d rolled(const Eigen::Vector3d& up) { return {-up.x(), -up.y(), up.z()}; }
 
 const char* whereUpIsFrom(UpSource source) {
   switch (source) {
     case UpSource::kTf:
-      return "tf has the camera upside down. Correct the mount's roll in tf (mount_roll of "
-             "pioneer.launch, or the robot's model)";
+      return "tf has the camera upside down, or it looks at a ceiling alone. Correct the mount's "
+             "roll in tf (mount_roll of pioneer.launch, or the robot's model)";
     case UpSource::kImu:
-      return "the inertial sensor is not fixed to the camera as tf says. Correct the transform "
-             "between their frames, or set use_imu to false";
+      return "the inertial sensor is not fixed to the camera as tf says, or the camera looks at a "
+             "ceiling alone. Correct the transform between their frames, or set use_imu to false";
     default:
       return "the camera is mounted upside down, its driver turns the images, or it looks at a "
              "ceiling alone. Turn the images, or change the sign of expected_up_y";
@@ -52,7 +60,9 @@ bool ImageTrials::heals(const Trial& trial, const DepthView& depth, const Camera
     parameters.expected_up = rolled(parameters.expected_up);
     if (changed.expected_up) changed.expected_up = rolled(*changed.expected_up);
   }
-  return DominantPlaneDetector(parameters).detect(depth, camera, changed).found();
+  DominantPlaneDetector detector(parameters);
+  const Detection& detection = detector.detect(depth, camera, changed);
+  return detection.found() && isAtExpectedHeight(detection, prior);
 }
 
 void ImageTrials::add(const DepthView& depth, const CameraModel& camera, const Prior& prior,

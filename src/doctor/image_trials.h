@@ -20,7 +20,7 @@ class ImageTrials {
   void add(const DepthView& depth, const CameraModel& camera, const Prior& prior,
            const Detection& detection);
   /// @return `upside-down` or `range-max`, or nothing: with planes in more than a quarter of
-  /// the images, with fewer than two without, and where nothing heals most of these.
+  /// the images, with a single one without where more came, and where nothing heals most of these.
   Findings findings() const;
 
   std::size_t images() const { return images_; }
@@ -34,6 +34,7 @@ class ImageTrials {
     std::size_t healed = 0;  ///< [#] images with a plane only by it
   };
 
+  /// @return whether there is a plane by it, at tf's height where that is known.
   bool heals(const Trial& trial, const DepthView& depth, const CameraModel& camera,
              const Prior& prior) const;
   Finding describe(const Trial& trial) const;

@@ -1,38 +1,15 @@
 #include "doctor/input_rules.h"
 
-#include <algorithm>
 #include <cstdio>
 
 #include "doctor/time_rules.h"
+#include "doctor/topic_advice.h"
 
 namespace dominant_plane_detection {
 namespace {
 
 constexpr const char* kImageType = "sensor_msgs/Image";
 constexpr const char* kCloudType = "sensor_msgs/PointCloud2";
-
-/// @return of other topics the one that is depth by its name, or else the first.
-const std::string& likeliest(const std::vector<std::string>& topics) {
-  const auto depth = std::find_if(topics.begin(), topics.end(), [](const std::string& topic) {
-    return topic.find("depth") != std::string::npos;
-  });
-  return depth == topics.end() ? topics.front() : *depth;
-}
-
-/// The remap that gives a detection another topic.
-std::string remap(const InputFacts& input) {
-  const std::string to = likeliest(input.depth.others);
-  if (!input.live) return "--topic " + to;
-  return input.from_points ? "points:=" + to + " (argument points of detection.launch)"
-                           : "depth/image_raw:=" + to + " (argument depth of detection.launch)";
-}
-
-/// What to do about a topic that is the wrong one.
-std::string choose(const InputFacts& input) {
-  const auto& others = input.depth.others;
-  if (others.empty()) return "";
-  return " Topics of this type: " + listed(others) + ". Give one of them: " + remap(input) + ".";
-}
 
 /// @return a length with one digit.
 std::string pixels(double length) {
@@ -53,10 +30,12 @@ bool sameSize(const InputFacts& input) {
 
 }  // namespace
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
+std::optional<Finding> findNotSubscribed(const InputFacts& input) {
+  if (input.subscription_error.empty()) return std::nullopt;
+  return Finding{Code::kUnusableImages, "Images of " + input.depth.name +
+                                            " cannot be subscribed: " + input.subscription_error +
+                                            ". Correct the parameter image_transport, or install "
+                                            "the transport that it names."};
 }
 
 std::optional<Finding> findSwappedTopics(const InputFacts& input) {
@@ -75,7 +54,7 @@ std::optional<Finding> findSwappedTopics(const InputFacts& input) {
   } else {
     text += "take another topic (one that an image_transport packs is named without what it adds).";
   }
-  return Finding{Code::kTopicsSwapped, text + choose(input)};
+  return Finding{Code::kTopicsSwapped, text + chooseAnother(input) + unpackFirst(depth)};
 }
 
 std::optional<Finding> findNoImages(const InputFacts& input) {
@@ -88,7 +67,13 @@ std::optional<Finding> findNoImages(const InputFacts& input) {
                        " of type " + depth.expected_type + " in the recording. Topics in it: " +
                        listed(depth.others) + ". Record the camera's depth image and its " +
                        "camera_info (record.launch does)" +
-                       (input.from_points ? "." : ", or, for clouds, give --set input=points.")};
+                       (input.from_points ? "." : ", or, for clouds, give --set input=points.") +
+                       unpackFirst(depth)};
+  }
+  if (!depth.known) {
+    return Finding{Code::kNoImages, "Nothing comes on " + depth.name +
+                                        ", and the ROS master does not answer: nobody knows who "
+                                        "publishes it. Start the system again, the master first."};
   }
   if (depth.type.empty()) {
     return Finding{Code::kNoImages, "Nothing comes on " + depth.name +
@@ -97,13 +82,13 @@ std::optional<Finding> findNoImages(const InputFacts& input) {
                                         listed(depth.others) + "." +
                                         (depth.others.empty() ? " Start the driver (camera.launch)."
                                                               : " Start the driver, or remap " +
-                                                                    remap(input) + ".")};
+                                                                    remapTo(input) + ".")};
   }
   return Finding{Code::kNoImages,
                  "Nothing comes on " + depth.name +
                      ", although it is published: the camera is not plugged in, does not stream, "
-                     "or its bag has ended; its driver's line in /diagnostics says more. Topics of "
-                     "this type: " +
+                     "or its bag has ended or is paused; its driver's line in /diagnostics says "
+                     "more. Topics of this type: " +
                      listed(depth.others) + "."};
 }
 
@@ -114,7 +99,7 @@ std::optional<Finding> findWrongEncoding(const InputFacts& input) {
                      ". It is no depth in millimetres or metres, but a picture, a disparity, or "
                      "depth as some viewer wants it. Give the depth image itself, such as "
                      "depth/image_raw of the camera." +
-                     choose(input)};
+                     chooseAnother(input)};
 }
 
 std::optional<Finding> findNoCameraInfo(const InputFacts& input) {
@@ -122,14 +107,14 @@ std::optional<Finding> findNoCameraInfo(const InputFacts& input) {
   if (input.depth.messages == 0 || info.name.empty() || info.messages > 0) return std::nullopt;
   std::string text =
       "Images come on " + input.depth.name + ", but no camera_info for them on " + info.name +
-      (info.type.empty() ? ", which nobody publishes" : "") +
+      (info.known && info.type.empty() ? ", which nobody publishes" : "") +
       ": without it nobody knows where a pixel looks. Topics of this type: " + listed(info.others) +
       ". ";
   if (!input.live) {
     text += "Record it beside the image, or give --camera FX,FY,CX,CY.";
   } else {
     text += "Have the driver publish it beside the image, or remap " + info.name +
-            ":=" + (info.others.empty() ? "TOPIC" : likeliest(info.others)) + ".";
+            ":=" + (info.others.empty() ? "TOPIC" : likeliestDepth(info.others)) + ".";
   }
   return Finding{Code::kNoCameraInfo, text};
 }
@@ -148,20 +133,21 @@ std::optional<Finding> findUncalibrated(const InputFacts& input) {
 
 std::optional<Finding> findCameraInfoSize(const InputFacts& input) {
   if (!input.camera || !calibrated(*input.camera) || sameSize(input)) return std::nullopt;
-  return Finding{Code::kCameraInfoSize,
-                 "Images of " + input.depth.name + " have " + size(input.width, input.height) +
-                     " pixels, but expected a camera_info of the image's size, and that on " +
-                     input.info.name + " is for " +
-                     size(input.camera->width, input.camera->height) +
-                     ": the calibration is of another resolution, or of another camera. Give the "
-                     "driver a calibration of this size, or set binning or region of interest in "
-                     "camera_info (depth_camera_info_url, depth_mode of camera.launch)."};
+  return Finding{
+      Code::kCameraInfoSize,
+      "Images of " + input.depth.name + " have " + size(input.width, input.height) +
+          " pixels, but expected a camera_info of the image's size, and that on " +
+          input.info.name + " is for " + size(input.camera->width, input.camera->height) +
+          ": the calibration is of another resolution, or of another camera. Give the "
+          "driver a calibration of this size, or set binning or region of interest in "
+          "camera_info (depth_camera_info_url of camera.launch; the driver's parameter depth_mode "
+          "is the images' size)."};
 }
 
 Findings examineInput(const InputFacts& input) {
   Findings findings;
-  for (const auto rule : {findSwappedTopics, findNoImages, findWrongEncoding, findNoCameraInfo,
-                          findUncalibrated, findCameraInfoSize}) {
+  for (const auto rule : {findNotSubscribed, findSwappedTopics, findNoImages, findWrongEncoding,
+                          findNoCameraInfo, findUncalibrated, findCameraInfoSize}) {
     if (const auto finding = rule(input)) {
       findings.push_back(*finding);
       break;

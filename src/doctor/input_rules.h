@@ -1,8 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "doctor/facts.h"
 #include "doctor/finding.h"
@@ -11,6 +9,7 @@ namespace dominant_plane_detection {
 
 // One rule each: nothing where all is well, and where there is nothing to judge.
 
+std::optional<Finding> findNotSubscribed(const InputFacts& input);
 std::optional<Finding> findSwappedTopics(const InputFacts& input);
 std::optional<Finding> findNoImages(const InputFacts& input);
 std::optional<Finding> findWrongEncoding(const InputFacts& input);
@@ -21,8 +20,5 @@ std::optional<Finding> findCameraInfoSize(const InputFacts& input);
 /// All of what keeps images from being looked at, or makes them late. One cause is told: where
 /// images are of a wrong encoding nobody wants to hear of their size.
 Findings examineInput(const InputFacts& input);
-
-/// @return names in one line, or "none".
-std::string listed(const std::vector<std::string>& names);
 
 }  // namespace dominant_plane_detection

@@ -11,6 +11,7 @@ namespace dominant_plane_detection {
 std::optional<Finding> findNoTf(const RobotFacts& robot);
 
 /// The plane is so much higher or lower than tf's ground as a wrong unit would make it.
+/// @return nothing where the ground is seen at tf's height as well.
 std::optional<Finding> findScaleByHeight(const RobotFacts& robot);
 
 /// @return nothing where a wrong unit explains it (see `findScaleByHeight`).

@@ -40,12 +40,16 @@ std::string asText(double factor) {
 
 }  // namespace
 
-void ScaleTrials::add(const DepthView& depth, const CameraModel& camera, const Prior& prior) {
+void ScaleTrials::add(const DepthView& depth, const CameraModel& camera, const Prior& prior,
+                      const Detection& detection) {
   ++images_;
   const DepthSpread spread = spreadOf(depth);
-  if (isPlausible(spread)) return;
+  const bool impossible = isImpossible(spread);
+  // What shows a plane as it is, is of a hall, or has a gripper before it.
+  const bool may_be = detection.found() && !impossible && !isFarInSteps(spread);
+  if (isPlausible(spread) || may_be) return;
   ++implausible_;
-  if (isImpossible(spread)) ++impossible_;
+  if (impossible) ++impossible_;
   spread_ = spread;
   Prior as_it_is = prior;
   as_it_is.predicted_plane.reset();

@@ -35,8 +35,8 @@ std::optional<Finding> findStampsApart(const InputFacts& input) {
   if (!input.info_offset || !input.camera) return std::nullopt;
   const bool other_frame = input.camera->frame_id != input.frame_id;
   std::string text = "No camera_info on " + input.info.name + " has the stamp of an image on " +
-                     input.depth.name + ": the nearest is " + number(1e3 * *input.info_offset) +
-                     " ms off. ";
+                     input.depth.name + ": the nearest is " +
+                     number(1e3 * std::abs(*input.info_offset)) + " ms off. ";
   text += other_frame
               ? "Its frame is '" + input.camera->frame_id + "' and not '" + input.frame_id +
                     "' either, so that it is not used at all. "

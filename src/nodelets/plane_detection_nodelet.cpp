@@ -152,7 +152,7 @@ void PlaneDetectionNodelet::detect(const DetectionInputs::Frame& frame) {
   boxes_->publish(frame, detection, parameters);
   clouds_->publish(frame, detection);  // after the tf that they may be in
   overlay_->publish(frame, detection);
-  trials_.add(ros::SteadyTime::now().toSec(), frame.depth, frame.camera, prior, detection);
+  trials_.add(frame.depth, frame.camera, prior, detection);
 }
 
 /// Lets the frame on the ground go out where somebody needs it.

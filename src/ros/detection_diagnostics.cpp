@@ -68,15 +68,18 @@ void DetectionDiagnostics::summarise(diagnostic_updater::DiagnosticStatusWrapper
     status.summary(DiagnosticStatus::ERROR, "cannot work on images: " + reason_);
   } else if (refused > 0) {
     status.summaryf(DiagnosticStatus::WARN, "dropped %lu images. %s", refused,
-                    input_.counts.refusal.c_str());
+                    input_.counts.refusal.text.c_str());
   } else if (period_.images == 0) {
     status.summary(DiagnosticStatus::OK, "waiting for images");
+  } else if (period_.planes == 0 && input_.no_plane) {
+    // Before what slowness says: it does not keep planes away, and looking for the cause takes
+    // time.
+    status.summary(DiagnosticStatus::WARN, input_.no_plane->text);
   } else if (static_cast<double>(overtaken) > kManyOvertaken * received) {
     status.summaryf(DiagnosticStatus::WARN, "too slow: newer images overtook %lu of %.0f",
                     overtaken, received);
   } else if (period_.planes == 0) {
-    status.summary(DiagnosticStatus::WARN,
-                   input_.no_plane ? input_.no_plane->text : "no plane: " + reason_);
+    status.summary(DiagnosticStatus::WARN, "no plane: " + reason_);
   } else if (!input_.robot.mount.empty()) {
     status.summary(DiagnosticStatus::WARN, input_.robot.mount);
   } else if (!input_.robot.remark.empty()) {
@@ -87,11 +90,18 @@ void DetectionDiagnostics::summarise(diagnostic_updater::DiagnosticStatusWrapper
   }
 }
 
+/// @return of what `summarise` tells.
+std::optional<Finding> DetectionDiagnostics::cause() const {
+  if (input_.problem) return input_.problem;
+  if (input_.counts.refused > reported_.refused) return input_.counts.refusal;
+  return input_.no_plane;
+}
+
 void DetectionDiagnostics::addValues(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   status.add("state of the last image", state_);
   status.add("reason", reason_);
-  const std::optional<Finding>& cause = input_.problem ? input_.problem : input_.no_plane;
-  status.add(keys::kCause, cause ? asLine(*cause) : "");
+  const std::optional<Finding> known = cause();
+  status.add(keys::kCause, known ? asLine(*known) : "");
   status.addf("rate [1/s]", "%.2f", rate());
   const auto images = static_cast<double>(std::max<std::uint64_t>(period_.images, 1));
   status.addf("time an image, mean [ms]", "%.3f", 1e3 * period_.sum_seconds / images);
@@ -103,6 +113,9 @@ void DetectionDiagnostics::addValues(diagnostic_updater::DiagnosticStatusWrapper
   status.add(keys::kPlanesAtTfHeight, input_.robot.heights.expected);
   status.add(keys::kPlanesElsewhere, input_.robot.heights.others);
   status.add(keys::kTfProblem, input_.robot.tf_problem);
+  status.add(keys::kTfImages, input_.robot.tf.images);
+  status.add(keys::kTfMissing, input_.robot.tf.missing);
+  status.add(keys::kTfLate, input_.robot.tf.late);
   status.addf(keys::kHeight, "%.4f", input_.robot.height);
   status.addf(keys::kTfHeight, "%.4f", input_.robot.tf_height);
   status.add(keys::kDepthTopic, input_.topics.depth);

@@ -50,6 +50,7 @@ class DetectionDiagnostics {
 
   void summarise(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void addValues(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  std::optional<Finding> cause() const;
   double rate() const;
 
   Input input_{};

@@ -31,7 +31,8 @@ DetectionInputs::DetectionInputs(const ros::NodeHandle& node, const ros::NodeHan
       transport_(node),
       kind_(kind),
       rectified_(rectified),
-      callback_(std::move(callback)) {}
+      callback_(std::move(callback)),
+      seen_(rectified) {}
 
 DetectionInputs::~DetectionInputs() { unsubscribe(); }
 
@@ -41,7 +42,9 @@ void DetectionInputs::subscribe() {
     const image_transport::TransportHints hints("raw", ros::TransportHints().tcpNoDelay(),
                                                 private_node_);
     images_ = transport_.subscribe(topics::kDepth, kQueue, &DetectionInputs::onImage, this, hints);
-    infos_ = node_.subscribe(image_transport::getCameraInfoTopic(images_.getTopic()), kInfos,
+    // Not beside images_.getTopic(): that is a topic of the transport, one level below.
+    const std::string depth = node_.resolveName(topics::kDepth);
+    infos_ = node_.subscribe(image_transport::getCameraInfoTopic(depth), kInfos,
                              &DetectionInputs::onInfo, this);
   } else {
     points_ = node_.subscribe(topics::kPoints, kQueue, &DetectionInputs::onPoints, this);
@@ -62,30 +65,18 @@ void DetectionInputs::unsubscribe() {
   matcher_ = CameraInfoMatcher();
   known_problem_ = InputWatch::Problem::kNone;
   problem_.reset();
-  seen_ = InputFacts();
+  seen_.forget();
 }
 
 void DetectionInputs::onImage(const sensor_msgs::ImageConstPtr& image) {
   ++counts_.received;
   watch_.sawImage(steadyNow());
-  look(*image);
+  seen_.add(*image);
   onPair(matcher_.addImage(image, steadyNow()));
 }
 
-/// Keeps what is said of an image where something is wrong.
-void DetectionInputs::look(const sensor_msgs::Image& image) {
-  seen_.frame_id = image.header.frame_id;
-  seen_.encoding = image.encoding;
-  seen_.encoding_is_depth = isDepthEncoding(image.encoding);
-  seen_.width = static_cast<int>(image.width);
-  seen_.height = static_cast<int>(image.height);
-  seen_.info_offset = info_stamp_.toSec() - image.header.stamp.toSec();
-}
-
 void DetectionInputs::onInfo(const sensor_msgs::CameraInfoConstPtr& info) {
-  ++seen_.info.messages;
-  seen_.camera = cameraInfoFacts(*info, rectified_);
-  info_stamp_ = info->header.stamp;
+  seen_.add(*info);
   onPair(matcher_.addInfo(info, steadyNow()));
 }
 
@@ -156,7 +147,7 @@ void DetectionInputs::refuse(const std::string& what, const std::string& error) 
   InputFacts refused = facts();
   refused.refusal = error;
   const Findings findings = examineInput(refused);
-  counts_.refusal = findings.empty() ? error : findings.front().text;
+  counts_.refusal = findings.empty() ? Finding{Code::kUnusableImages, error} : findings.front();
   ROS_WARN_STREAM_THROTTLE(kThrottle, "Dropped " << what << ": " << error << ".");
 }
 
@@ -178,12 +169,11 @@ DetectionInputs::Topics DetectionInputs::topics() const {
 /// @return what has been seen, without what the master knows.
 InputFacts DetectionInputs::facts() const {
   const Topics names = topics();
-  InputFacts facts = seen_;
+  InputFacts facts = seen_.facts();
   facts.from_points = kind_ == InputKind::kPoints;
   facts.depth.name = facts.from_points ? names.points : names.depth;
   facts.depth.messages = counts_.received;
   facts.info.name = names.info;
-  facts.info_offset.reset();
   return facts;
 }
 
@@ -191,13 +181,15 @@ std::optional<Finding> DetectionInputs::describe(InputWatch::Problem problem) co
   if (problem == InputWatch::Problem::kNone) return std::nullopt;
   InputFacts silent = facts();
   const std::size_t infos = silent.info.messages;
-  silent.depth = topicFacts(silent.depth.name,
+  const auto published = publishedTopics();
+  silent.depth = topicFacts(published, silent.depth.name,
                             silent.from_points ? "sensor_msgs/PointCloud2" : "sensor_msgs/Image");
+  takeTransport(published, images_.getTopic(), silent.depth);
   if (problem == InputWatch::Problem::kUnmatched) {
     silent.depth.messages = 1;
-    silent.info = topicFacts(silent.info.name, "sensor_msgs/CameraInfo");
+    silent.info = topicFacts(published, silent.info.name, "sensor_msgs/CameraInfo");
     silent.info.messages = infos;
-    silent.info_offset = seen_.info_offset;
+    silent.info_offset = seen_.infoOffset();
   }
   const Findings findings = examineInput(silent);
   return findings.empty() ? std::nullopt : std::optional<Finding>(findings.front());

@@ -17,6 +17,7 @@
 #include "ros/cloud_conversion.h"
 #include "ros/depth_conversion.h"
 #include "ros/input_watch.h"
+#include "ros/seen_inputs.h"
 
 namespace dominant_plane_detection {
 
@@ -44,7 +45,8 @@ class DetectionInputs {
     std::uint64_t received = 0;
     std::uint64_t overtaken = 0;  ///< a newer one came before they could be looked at
     std::uint64_t refused = 0;    ///< malformed
-    std::string refusal;          ///< why the last one was, the likeliest cause and what to change
+    /// Why the last one was, the likeliest cause and what to change.
+    Finding refusal{Code::kUnusableImages, ""};
   };
 
   /// @param node topics are relative to it.
@@ -77,7 +79,6 @@ class DetectionInputs {
   Topics topics() const;
 
  private:
-  void look(const sensor_msgs::Image& image);
   void onImage(const sensor_msgs::ImageConstPtr& image);
   void onInfo(const sensor_msgs::CameraInfoConstPtr& info);
   void onPair(const std::optional<CameraInfoMatcher::Pair>& pair);
@@ -115,8 +116,7 @@ class DetectionInputs {
   InputWatch watch_;
   InputWatch::Problem known_problem_ = InputWatch::Problem::kNone;
   std::optional<Finding> problem_;
-  ros::Time info_stamp_;  ///< of the last camera_info
-  InputFacts seen_;       ///< of the last image and camera_info
+  SeenInputs seen_;
 };
 
 }  // namespace dominant_plane_detection

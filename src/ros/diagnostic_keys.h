@@ -12,6 +12,9 @@ constexpr const char* kMountIsHeight = "mount, of another height";
 constexpr const char* kPlanesAtTfHeight = "planes at the height by tf";
 constexpr const char* kPlanesElsewhere = "planes at quite another height";
 constexpr const char* kTfProblem = "tf, what is missing";
+constexpr const char* kTfImages = "tf, images that want it";
+constexpr const char* kTfMissing = "tf, images without it";
+constexpr const char* kTfLate = "tf, images for which it is of another time";
 constexpr const char* kHeight = "height by the plane [m]";
 constexpr const char* kTfHeight = "height by tf [m]";
 

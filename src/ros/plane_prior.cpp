@@ -72,6 +72,7 @@ UpChoice::Candidates PlanePrior::candidates(const std_msgs::Header& header) {
   const bool by_tf = !parameters_.base_frame.empty() && parameters_.publish_tf != TfOutput::kBase;
   if (by_tf) {
     const auto pose = frames_.pose(parameters_.base_frame, header.frame_id, header.stamp);
+    status_.tf.add(pose);
     candidates.tf_problem = pose.problem;
     if (pose.transform) {
       const MountedGround ground = mountedGround(*pose.transform);

@@ -38,6 +38,7 @@ class PlanePrior {
     bool mount_is_height = false;  ///< that is of a plane at quite another height
     MountWatch::Heights heights;
     std::string tf_problem;  ///< why tf has nothing of the last image, although it is wanted
+    PoseCounts tf;           ///< of all images
     double height = 0.0;     ///< [m] of the camera by the last plane; 0: there was none
     double tf_height = 0.0;  ///< [m] of the camera by tf of the last image; 0: not known
   };

@@ -31,6 +31,7 @@ Pose findPose(const tf2::BufferCore& buffer, const std::string& target, const st
     pose.exact = !stamp.isZero();  // that is the latest, whatever its time
     return pose;
   } catch (const tf2::ExtrapolationException& error) {
+    pose.late = true;
     pose.problem = problem + " of the image's time: " + error.what();
   } catch (const std::exception& error) {
     pose.problem = problem + ": " + error.what();
@@ -41,6 +42,7 @@ Pose findPose(const tf2::BufferCore& buffer, const std::string& target, const st
     const double late = stamp.toSec() - latest.header.stamp.toSec();
     if (late >= 0.0 && late <= kLate) {
       pose.transform = tf2::transformToEigen(latest);
+      pose.late = false;
       pose.problem.clear();
     }
   } catch (const std::exception&) {

@@ -8,6 +8,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,7 +23,22 @@ std::string plainFrame(const std::string& frame);
 struct Pose {
   std::optional<Eigen::Isometry3d> transform;  ///< T_target_source
   bool exact = false;   ///< of the very time, and not up to a twentieth of a second older
+  bool late = false;    ///< there is none of the time, although the frames are known
   std::string problem;  ///< why there is none, in one sentence
+};
+
+/// What became of the images for which a frame was asked.
+struct PoseCounts {
+  std::size_t images = 0;   ///< [#]
+  std::size_t missing = 0;  ///< [#] of them without
+  std::size_t late = 0;     ///< [#] of these only because of the time
+
+  void add(const Pose& pose) {
+    ++images;
+    if (pose.transform) return;
+    ++missing;
+    if (pose.late) ++late;
+  }
 };
 
 /// Never waits.

@@ -3,6 +3,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/node_handle.h>
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,8 +14,6 @@ namespace dominant_plane_detection {
 /// show otherwise.
 class DetectionStatus {
  public:
-  using Values = std::map<std::string, std::string>;
-
   explicit DetectionStatus(ros::NodeHandle& node);
 
   /// @return the nodes' names, as "/camera/plane_detection".
@@ -26,12 +25,26 @@ class DetectionStatus {
   /// @return the same where it said it the last two times: at the start things come one after the
   /// other.
   std::string lasting(const std::string& node, const std::string& key) const;
+  /// @return the last that is not empty, or nothing.
+  std::string lastSaid(const std::string& node, const std::string& key) const;
+  /// @return [#] by how much a count grew while it was listened to, or since it began anew.
+  std::size_t growth(const std::string& node, const std::string& key) const;
+  /// @return its message where it was an error the last two times, or nothing.
+  std::string lastingError(const std::string& node) const;
 
  private:
-  void onDiagnostics(const diagnostic_msgs::DiagnosticArray& array);
-  static std::string valueOf(const Values& values, const std::string& key);
+  using Values = std::map<std::string, std::string>;
+  struct Status {
+    int level;
+    std::string message;
+    Values values;
+  };
 
-  std::map<std::string, std::vector<Values>> said_;  ///< by node, oldest first
+  void onDiagnostics(const diagnostic_msgs::DiagnosticArray& array);
+  static std::string valueOf(const Status& status, const std::string& key);
+  static std::size_t countOf(const Status& status, const std::string& key);
+
+  std::map<std::string, std::vector<Status>> said_;  ///< by node, oldest first
   ros::Subscriber subscriber_;
 };
 

@@ -34,7 +34,7 @@ constexpr int kUnusable = 2;
 struct Options {
   SourceArguments source;
   std::string node;
-  double duration = 6.0;
+  double duration = 10.0;
 };
 
 void declare(CLI::App& app, Options& options) {

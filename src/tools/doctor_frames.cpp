@@ -2,21 +2,17 @@
 
 #include "doctor/image_rules.h"
 #include "doctor_report.h"
+#include "doctor_sample.h"
 #include "inputs.h"
 
 namespace dominant_plane_detection {
-namespace {
-
-/// [#] Images that are looked at, spread over all.
-constexpr std::size_t kSample = 60;
-
-}  // namespace
-
 DoctorReport examineFrames(const std::string& path, const DoctorSettings& settings,
                            const SourceOptions& options) {
-  const Inputs inputs = openInputs({path}, options);
+  SourceOptions corrected = options;
+  corrected.correction = settings.correction;
+  const Inputs inputs = openInputs({path}, corrected);
   if (!inputs.errors.empty()) throw std::runtime_error(inputs.errors.front());
-  const std::size_t every = 1 + inputs.frames() / kSample;
+  const std::size_t every = sampleStep(inputs.frames());
   ImageStudy study(settings.detection);
   std::size_t number = 0;
   for (const auto& source : inputs.sources) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,13 @@ namespace dominant_plane_detection {
 struct LiveOptions {
   std::string topic;                  ///< of depth; empty: what the detections take
   std::string node;                   ///< of a detection; empty: each
-  std::optional<CameraModel> camera;  ///< instead of camera_info, with `topic`
-  double duration = 6.0;              ///< [s] to listen
+  std::optional<CameraModel> camera;  ///< instead of any camera_info
+  double duration = 10.0;             ///< [s] to listen
 };
 
 /// Listens to the detections that run, which it wakes, and to what they take.
-/// @param arguments override what a node's parameters are.
+/// @param arguments override what a node's parameters are; where there are any, images are looked
+/// at by them, and not by what the node says of its own.
 /// @return one report a detection, or one of the topic.
 /// @throw std::runtime_error without a master, and where there is nothing to look at.
 std::vector<DoctorReport> examineLive(const SourceArguments& arguments, const LiveOptions& options);

@@ -3,6 +3,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "calibration/depth_correction_file.h"
 #include "ros/parameter_file.h"
 #include "ros/sensor_profiles.h"
 
@@ -39,6 +40,9 @@ void DoctorSettings::set(const std::string& name, const std::string& value) {
     transport = value;
   } else if (name == "sensor") {
     if (!value.empty()) loadParameters(findSensorProfile(value), detection);
+  } else if (name == "correction") {
+    correction.reset();
+    if (!value.empty()) correction = loadDepthCorrection(value);
   } else if (isOneOf(parameterNames<NodeParameters>(), name)) {
     setParameter(node, name, value);
   } else if (nodeletParameters().count(name) == 0) {
@@ -62,6 +66,7 @@ void DoctorSettings::take(const SourceArguments& arguments) {
     detection.range_max = arguments.range[1];
   }
   if (!arguments.algorithm.empty()) set("algorithm", arguments.algorithm);
+  if (!arguments.correction.empty()) set("correction", arguments.correction);
 }
 
 }  // namespace dominant_plane_detection

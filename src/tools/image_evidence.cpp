@@ -26,6 +26,11 @@ const Detection* ImageEvidence::refuse(const std::string& error) {
   return nullptr;
 }
 
+const Detection* ImageEvidence::study(const DepthView& depth, const CameraModel& camera,
+                                      const Prior& prior) {
+  return &study_.add(correction_ ? correction_->correct(depth) : depth, camera, prior);
+}
+
 const Detection* ImageEvidence::add(const sensor_msgs::Image& image,
                                     const sensor_msgs::CameraInfoConstPtr& info,
                                     const Prior& prior) {
@@ -41,7 +46,7 @@ const Detection* ImageEvidence::add(const sensor_msgs::Image& image,
   if (!info && !camera_) return nullptr;  // there is a rule for that
   const auto camera = cameraOf(info.get(), *depth, error);
   if (!camera) return refuse(error);
-  return &study_.add(*depth, *camera, prior);
+  return study(*depth, *camera, prior);
 }
 
 const Detection* ImageEvidence::add(const sensor_msgs::PointCloud2& cloud, const Prior& prior) {
@@ -49,7 +54,7 @@ const Detection* ImageEvidence::add(const sensor_msgs::PointCloud2& cloud, const
   std::string error;
   const auto image = cloud_reader_.read(cloud, error);
   if (!image) return refuse(error);
-  return &study_.add(image->depth, image->camera, prior);
+  return study(image->depth, image->camera, prior);
 }
 
 void ImageEvidence::describe(InputFacts& facts) const {

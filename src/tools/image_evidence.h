@@ -15,12 +15,18 @@
 
 namespace dominant_plane_detection {
 
-/// Looks at messages as the detection nodelet does, and keeps what is to be said of them.
+/// Looks at messages as the detection nodelet does, but for the robot's body, which is left in; and
+/// keeps what is to be said of them.
 class ImageEvidence {
  public:
   /// @param camera holds instead of any camera_info; its size is that of each image where it is 0.
-  ImageEvidence(const DoctorSettings& settings, const std::optional<CameraModel>& camera)
-      : rectified_(settings.rectified), camera_(camera), study_(settings.detection) {}
+  /// @param tries see `ImageStudy`.
+  ImageEvidence(const DoctorSettings& settings, const std::optional<CameraModel>& camera,
+                bool tries = true)
+      : rectified_(settings.rectified),
+        camera_(camera),
+        correction_(settings.correction),
+        study_(settings.detection, tries) {}
 
   /// @param info nothing where none came.
   /// @return what the image shows, until the next call; null where it cannot be used.
@@ -34,11 +40,13 @@ class ImageEvidence {
 
  private:
   const Detection* refuse(const std::string& error);
+  const Detection* study(const DepthView& depth, const CameraModel& camera, const Prior& prior);
   std::optional<CameraModel> cameraOf(const sensor_msgs::CameraInfo* info, const DepthView& depth,
                                       std::string& error) const;
 
   bool rectified_;
   std::optional<CameraModel> camera_;
+  std::optional<DepthCorrection> correction_;
   ImageStudy study_;
   DepthReader depth_reader_;
   CloudReader cloud_reader_;

@@ -4,31 +4,40 @@
 #include <cmath>
 #include <utility>
 
-#include "ros/topic_facts.h"
+#include "doctor/finding.h"
+#include "doctor/stamp_offset.h"
 
 namespace dominant_plane_detection {
 
 LiveInput::LiveInput(ros::NodeHandle& node, const DoctorSettings& settings,
                      const std::string& depth, const std::string& info,
-                     const std::optional<CameraModel>& camera)
+                     const std::optional<CameraModel>& camera, bool tries)
     : settings_(settings),
       depth_topic_(depth),
       info_topic_(camera ? "" : info),
-      images_(settings, camera),
+      images_(settings, camera, tries),
       transport_(node) {
+  try {
+    subscribe(node);
+  } catch (const image_transport::Exception& error) {
+    error_ = inOneLine(error.what());
+  }
+}
+
+void LiveInput::subscribe(ros::NodeHandle& node) {
   constexpr std::uint32_t kQueue = 5;
-  if (settings.points) {
-    cloud_subscriber_ = node.subscribe(depth, kQueue, &LiveInput::onCloud, this);
+  if (settings_.points) {
+    cloud_subscriber_ = node.subscribe(depth_topic_, kQueue, &LiveInput::onCloud, this);
     return;
   }
-  image_subscriber_ = transport_.subscribe(depth, kQueue, &LiveInput::onImage, this,
-                                           image_transport::TransportHints(settings.transport));
+  image_subscriber_ = transport_.subscribe(depth_topic_, kQueue, &LiveInput::onImage, this,
+                                           image_transport::TransportHints(settings_.transport));
   if (info_topic_.empty()) return;
   info_subscriber_ = node.subscribe(info_topic_, 10 * kQueue, &LiveInput::onInfo, this);
 }
 
 void LiveInput::onHeader(const std_msgs::Header& header) {
-  stamps_.push_back(header.stamp);
+  stamps_.push_back(header.stamp.toSec());
   const ros::Time now = ros::Time::now();
   if (!now.isZero()) ages_.push_back((now - header.stamp).toSec());
 }
@@ -45,7 +54,7 @@ void LiveInput::onCloud(const sensor_msgs::PointCloud2ConstPtr& cloud) {
 
 void LiveInput::onInfo(const sensor_msgs::CameraInfoConstPtr& info) {
   constexpr std::size_t kKept = 30;
-  info_stamps_.insert(info->header.stamp);
+  info_stamps_.insert(info->header.stamp.toSec());
   infos_.push_back(info);
   if (infos_.size() > kKept) infos_.pop_front();
 }
@@ -66,11 +75,13 @@ void LiveInput::look() {
 }
 
 InputFacts LiveInput::facts() const {
+  const auto published = publishedTopics();
   InputFacts facts;
   facts.from_points = settings_.points;
-  facts.depth =
-      topicFacts(depth_topic_, settings_.points ? "sensor_msgs/PointCloud2" : "sensor_msgs/Image");
-  if (settings_.transport != "raw") facts.depth.type.clear();  // others are of types of their own
+  facts.subscription_error = error_;
+  facts.depth = topicFacts(published, depth_topic_,
+                           settings_.points ? "sensor_msgs/PointCloud2" : "sensor_msgs/Image");
+  takeTransport(published, image_subscriber_.getTopic(), facts.depth);
   facts.depth.messages = stamps_.size();
   images_.describe(facts);
   if (!ages_.empty()) {
@@ -79,15 +90,18 @@ InputFacts LiveInput::facts() const {
     std::nth_element(ages.begin(), middle, ages.end());
     facts.age = *middle;
   }
-  if (settings_.points || info_topic_.empty()) return facts;
-  facts.info = topicFacts(info_topic_, "sensor_msgs/CameraInfo");
-  facts.info.messages = info_stamps_.size();
-  const auto exact = std::count_if(stamps_.begin(), stamps_.end(), [this](const ros::Time& stamp) {
-    return info_stamps_.count(stamp) != 0;
-  });
-  if (infos_.empty() || 2 * static_cast<std::size_t>(exact) >= stamps_.size()) return facts;
-  facts.info_offset = (infos_.back()->header.stamp - stamps_.back()).toSec();
+  if (!settings_.points && !info_topic_.empty()) describeInfo(published, facts);
   return facts;
+}
+
+void LiveInput::describeInfo(const std::optional<ros::master::V_TopicInfo>& published,
+                             InputFacts& facts) const {
+  facts.info = topicFacts(published, info_topic_, "sensor_msgs/CameraInfo");
+  facts.info.messages = info_stamps_.size();
+  const auto exact = std::count_if(stamps_.begin(), stamps_.end(),
+                                   [this](double stamp) { return info_stamps_.count(stamp) != 0; });
+  if (2 * static_cast<std::size_t>(exact) >= stamps_.size()) return;
+  facts.info_offset = stampOffset(stamps_, {info_stamps_.begin(), info_stamps_.end()});
 }
 
 }  // namespace dominant_plane_detection

@@ -11,6 +11,7 @@
 
 #include "doctor/facts.h"
 #include "image_evidence.h"
+#include "ros/topic_facts.h"
 
 namespace dominant_plane_detection {
 
@@ -19,8 +20,9 @@ class LiveInput {
  public:
   /// @param depth topic of images, or of clouds.
   /// @param info topic of camera_info; empty where none is needed.
+  /// @param tries see `ImageStudy`.
   LiveInput(ros::NodeHandle& node, const DoctorSettings& settings, const std::string& depth,
-            const std::string& info, const std::optional<CameraModel>& camera);
+            const std::string& info, const std::optional<CameraModel>& camera, bool tries);
 
   /// Looks at the newest image, to be called a few times a second.
   void look();
@@ -30,6 +32,9 @@ class LiveInput {
   std::size_t messages() const { return stamps_.size(); }
 
  private:
+  void subscribe(ros::NodeHandle& node);
+  void describeInfo(const std::optional<ros::master::V_TopicInfo>& published,
+                    InputFacts& facts) const;
   void onImage(const sensor_msgs::ImageConstPtr& image);
   void onInfo(const sensor_msgs::CameraInfoConstPtr& info);
   void onCloud(const sensor_msgs::PointCloud2ConstPtr& cloud);
@@ -38,6 +43,7 @@ class LiveInput {
 
   DoctorSettings settings_;
   std::string depth_topic_, info_topic_;
+  std::string error_;  ///< why nothing is subscribed
   ImageEvidence images_;
   image_transport::ImageTransport transport_;
   image_transport::Subscriber image_subscriber_;
@@ -46,8 +52,8 @@ class LiveInput {
   sensor_msgs::ImageConstPtr newest_;
   sensor_msgs::PointCloud2ConstPtr newest_cloud_;
   std::deque<sensor_msgs::CameraInfoConstPtr> infos_;  ///< the latest
-  std::vector<ros::Time> stamps_;                      ///< of all images
-  std::set<ros::Time> info_stamps_;                    ///< of all camera_info
+  std::vector<double> stamps_;                         ///< [s] of all images
+  std::set<double> info_stamps_;                       ///< [s] of all camera_info
   std::vector<double> ages_;                           ///< [s] of images when they came
 };
 

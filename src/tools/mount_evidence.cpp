@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "ros/robot_frames.h"
-
 namespace dominant_plane_detection {
 namespace {
 
@@ -28,10 +26,9 @@ Prior MountEvidence::priorOf(const std_msgs::Header& header) {
   camera_.reset();
   height_.reset();
   if (!wanted()) return prior;
-  ++images_;
   const Pose pose = findPose(frames_, parameters_.base_frame, header.frame_id, header.stamp);
+  poses_.add(pose);
   if (!pose.transform) {
-    ++missing_;
     problem_ = pose.problem;
     return prior;
   }
@@ -57,7 +54,8 @@ void MountEvidence::add(const std_msgs::Header& header, const Detection& detecti
 RobotFacts MountEvidence::facts() const {
   RobotFacts facts;
   facts.base_frame = wanted() ? parameters_.base_frame : "";
-  if (2 * missing_ > images_) facts.tf_problem = problem_;
+  if (2 * poses_.missing > poses_.images) facts.tf_problem = problem_;
+  facts.tf_is_late = 2 * poses_.late > poses_.missing;
   // A mount that moved is off until the end.
   if (off_ >= kLasting) facts.mount = watch_.text();
   facts.mount_is_height = watch_.isOfHeight();

@@ -10,6 +10,7 @@
 #include "dominant_plane_detection/prior.h"
 #include "prior/mount_watch.h"
 #include "ros/node_parameters.h"
+#include "ros/robot_frames.h"
 
 namespace dominant_plane_detection {
 
@@ -33,8 +34,7 @@ class MountEvidence {
   std::optional<Eigen::Isometry3d> camera_;      ///< T_base_camera at the image
   std::optional<Prior::ExpectedHeight> height_;  ///< by tf at the image
   std::string problem_;                          ///< of the last image without tf
-  std::size_t images_ = 0;
-  std::size_t missing_ = 0;                   ///< [#] images without tf
+  PoseCounts poses_;                             ///< of tf at the images
   std::size_t off_ = 0;                       ///< [#] images at the end for which the mount was off
   std::vector<double> heights_, tf_heights_;  ///< [m]
 };

@@ -189,24 +189,112 @@ TEST(ImageRules, NowAndThenNoPlaneIsNothing) {
   EXPECT_TRUE(hasCode(study.findings(), Code::kUpsideDown)) << "3 of 13";
 }
 
-TEST(NoPlaneTrials, TryOnceASecondWhileThereIsNoPlane) {
+/// A level camera 1.5 m up in a hall: the floor begins 3.6 m away, and a wall is at 12 m.
+Millimetres hallImage() {
+  Millimetres image = inMillimetres(planeDepth(binCamera(), upOf(0.0), 1.5));
+  for (std::uint16_t& z : image.pixels) z = z == 0 || z > 12000 ? 12000 : z;
+  return image;
+}
+
+TEST(ImageRules, AHallThatShowsItsFloorIsNoWrongUnit) {
   Parameters parameters;
-  parameters.expected_up = {0.0, 1.0, 0.0};
-  DominantPlaneDetector detector(parameters);
-  NoPlaneTrials trials(parameters);
-  const auto see = [&](double now) {
-    const Detection& none = detector.detect(binImage().view(), binCamera());
-    trials.add(now, binImage().view(), binCamera(), Prior(), none);
-    return trials.cause();
-  };
+  parameters.range_max = 8.0;
+  const DepthSpread spread = spreadOf(hallImage().view());
+  ASSERT_FALSE(isPlausible(spread));
+  ASSERT_FALSE(isImpossible(spread));
+  EXPECT_TRUE(study(hallImage(), parameters).empty());
+}
+
+TEST(ImageRules, AGripperBeforeTheCameraIsNoWrongUnit) {
+  Millimetres image = binImage();
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < 80; ++u) image.at(u, v) = 150;
+  }
+  ASSERT_FALSE(isPlausible(spreadOf(image.view())));
+  EXPECT_TRUE(study(image).empty());
+}
+
+/// A ceiling 0.8 m above a level camera, as of a passage.
+TEST(ImageRules, ACeilingMayBeTheCauseToo) {
+  const auto ceiling = inMillimetres(planeDepth(binCamera(), -upOf(0.0), 0.8));
+  expectOnly(study(ceiling), Code::kUpsideDown, {"a ceiling alone"});
+  Prior prior;
+  prior.expected_up = upOf(0.0);
+  prior.up_source = UpSource::kImu;
+  expectOnly(study(ceiling, Parameters(), prior), Code::kUpsideDown, {"a ceiling alone"});
+  prior.up_source = UpSource::kTf;
+  expectOnly(study(ceiling, Parameters(), prior), Code::kUpsideDown, {"a ceiling alone"});
+  prior.expected_height = {0.5, 0.125};
+  EXPECT_TRUE(study(ceiling, Parameters(), prior).empty()) << "tf knows another height";
+  prior.expected_height = {0.75, 0.125};
+  expectOnly(study(ceiling, Parameters(), prior), Code::kUpsideDown, {"a ceiling alone"});
+}
+
+/// Looks at one image again and again, at the times of a clock of its own.
+class NoPlaneTrialsTest : public testing::Test {
+ protected:
+  NoPlaneTrialsTest() { parameters_.expected_up = {0.0, 1.0, 0.0}; }
+
+  void begin() {
+    trials_ = NoPlaneTrials(parameters_, [this] {
+      const double now = now_;
+      now_ += round_;
+      return now;
+    });
+  }
+  /// @return the cause after an image without a plane.
+  std::optional<Finding> see(double now) {
+    now_ = now;
+    Detection none;
+    none.state = State::kTooTilted;
+    trials_.add(binImage().view(), binCamera(), Prior(), none);
+    return trials_.cause();
+  }
+
+  Parameters parameters_;
+  NoPlaneTrials trials_{Parameters()};
+  double now_ = 0.0;    // [s]
+  double round_ = 0.0;  // [s] that trials take
+};
+
+TEST_F(NoPlaneTrialsTest, TryOnceASecondWhileThereIsNoPlane) {
+  begin();
   EXPECT_FALSE(see(10.0));
   EXPECT_FALSE(see(10.9)) << "not a second yet";
-  EXPECT_TRUE(see(11.0)) << "one image, and one that it heals";
+  EXPECT_FALSE(see(11.0)) << "a single image tells nothing";
+  EXPECT_FALSE(see(11.9));
+  EXPECT_TRUE(see(12.0));
   Detection found;
   found.state = State::kFound;
-  trials.add(11.1, binImage().view(), binCamera(), Prior(), found);
-  EXPECT_FALSE(trials.cause()) << "with planes there is nothing to tell";
-  EXPECT_FALSE(see(12.0));
+  trials_.add(binImage().view(), binCamera(), Prior(), found);
+  EXPECT_FALSE(trials_.cause()) << "with planes there is nothing to tell";
+  EXPECT_FALSE(see(13.0));
+}
+
+TEST_F(NoPlaneTrialsTest, RestTwentyTimesAsLongAsTheyTake) {
+  round_ = 0.5;
+  begin();
+  EXPECT_FALSE(see(10.0));
+  EXPECT_FALSE(see(11.0)) << "the first one";
+  EXPECT_FALSE(see(21.4));
+  EXPECT_TRUE(see(21.5)) << "10 s after it";
+  Detection found;
+  found.state = State::kFound;
+  trials_.add(binImage().view(), binCamera(), Prior(), found);
+  for (const double now : {23.0, 32.9}) EXPECT_FALSE(see(now));
+  EXPECT_EQ(now_, 33.4) << "planes in between do not hurry them";
+}
+
+TEST_F(NoPlaneTrialsTest, AreByTheGrid) {
+  parameters_.algorithm = Algorithm::kKdtree;
+  begin();
+  EXPECT_FALSE(see(10.0));
+  EXPECT_FALSE(see(11.0));
+  EXPECT_TRUE(see(12.0));
+  parameters_ = Parameters();  // the grid has a plane as it is: up is not to blame
+  parameters_.algorithm = Algorithm::kKdtree;
+  begin();
+  for (const double now : {10.0, 11.0, 12.0, 13.0}) EXPECT_FALSE(see(now));
 }
 
 }  // namespace

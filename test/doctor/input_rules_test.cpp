@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <set>
 
+#include "doctor/stamp_offset.h"
 #include "doctor/time_rules.h"
 #include "support/finding.h"
 
@@ -58,8 +60,9 @@ TEST(InputRules, NobodyPublishes) {
 TEST(InputRules, APublishedTopicIsSilent) {
   InputFacts input = healthy();
   input.depth.messages = 0;
-  expectOnly(examineInput(input), Code::kNoImages,
-             {"Nothing comes on /camera/depth/image_raw", "although it is published"});
+  expectOnly(
+      examineInput(input), Code::kNoImages,
+      {"Nothing comes on /camera/depth/image_raw", "although it is published", "or is paused"});
 }
 
 TEST(InputRules, ARecordingHasNoDepth) {
@@ -69,6 +72,37 @@ TEST(InputRules, ARecordingHasNoDepth) {
   input.info = {};
   expectOnly(examineInput(input), Code::kNoImages,
              {"no depth image topic", "/rgb/image_raw", "record.launch"});
+}
+
+TEST(InputRules, ARecordingHasPackedDepth) {
+  InputFacts input = healthy();
+  input.live = false;
+  input.depth = {"", kImage, "", 0, {}};
+  input.depth.packed = "/camera/depth/image_raw/compressedDepth";
+  const auto words = {"republish compressedDepth in:=/camera/depth/image_raw raw",
+                      "and record /camera/depth/image_raw"};
+  expectOnly(examineInput(input), Code::kNoImages, words);
+  input.depth.name = input.depth.packed;
+  input.depth.type = "sensor_msgs/CompressedImage";
+  expectOnly(examineInput(input), Code::kTopicsSwapped, words);
+}
+
+TEST(InputRules, TheMasterIsAway) {
+  InputFacts input = healthy();
+  input.depth = {"/depth", kImage, "", 0, {}, false};
+  expectOnly(examineInput(input), Code::kNoImages, {"the ROS master does not answer"});
+  input.depth.messages = 1;
+  input.info = {"/info", "sensor_msgs/CameraInfo", "", 0, {}, false};
+  const Findings findings = examineInput(input);
+  expectOnly(findings, Code::kNoCameraInfo);
+  EXPECT_EQ(findings.front().text.find("nobody publishes"), std::string::npos);
+}
+
+TEST(InputRules, NothingIsSubscribed) {
+  InputFacts input = healthy();
+  input.depth.messages = 0;
+  input.subscription_error = "Unable to load plugin for transport 'frob'";
+  expectOnly(examineInput(input), Code::kUnusableImages, {"'frob'", "image_transport"});
 }
 
 TEST(InputRules, TopicsAreSwapped) {
@@ -128,7 +162,8 @@ TEST(InputRules, ACameraInfoIsOfAnotherSize) {
   input.camera->width = 320;
   input.camera->height = 240;
   expectOnly(examineInput(input), Code::kCameraInfoSize,
-             {"640 x 480", "320 x 240", "depth_camera_info_url", "binning"});
+             {"640 x 480", "320 x 240", "depth_camera_info_url of camera.launch", "binning",
+              "the driver's parameter depth_mode"});
   input.camera->width = 640;
   expectOnly(examineInput(input), Code::kCameraInfoSize, {"640 x 240"});
   input.camera->width = 320;
@@ -138,11 +173,21 @@ TEST(InputRules, ACameraInfoIsOfAnotherSize) {
 
 TEST(InputRules, StampsAreApart) {
   InputFacts input = healthy();
-  input.info_offset = 0.0041;
+  input.info_offset = -0.0041;
   expectOnly(examineInput(input), Code::kStampsApart,
-             {"4.1 ms", "is used instead", "header.stamp"});
+             {" is 4.1 ms off", "is used instead", "header.stamp"});
   input.camera->frame_id = "other";
   expectOnly(examineInput(input), Code::kStampsApart, {"'other'", "'optical'", "not used at all"});
+}
+
+TEST(InputRules, TheNearestStampIsThatOfAllThatCame) {
+  EXPECT_FALSE(stampOffset({1.0, 2.0}, {}));
+  EXPECT_FALSE(stampOffset({}, {1.0}));
+  EXPECT_FALSE(stampOffset({1.0}, {1.0}));
+  EXPECT_NEAR(*stampOffset({1.0, 1.1, 1.2}, {1.104, 1.004}), 0.004, 1e-9);
+  EXPECT_NEAR(*stampOffset({1.0, 1.1}, {0.7, 1.07, 1.5}), -0.03, 1e-9);
+  EXPECT_NEAR(std::abs(*stampOffset({1.0, 1.1, 1.2}, {1.1})), 0.1, 1e-9) << "one has its own";
+  EXPECT_NEAR(*stampOffset({2.0}, {1.0, 1.5}), -0.5, 1e-9);
 }
 
 TEST(InputRules, WhatElseIsWrongWithImagesIsSaidInTheReadersWords) {
@@ -186,6 +231,8 @@ TEST(Codes, AreUniqueAndAllInTheDocument) {
   }
   EXPECT_EQ(asLine({Code::kMirrored, "text"}), "mirrored: text");
   EXPECT_STREQ(codeName(Code::kNoClock), "no-clock");
+  EXPECT_EQ(inOneLine("Unable to load:\n-----\nno such - thing\n-----\n"),
+            "Unable to load: no such - thing");
 }
 
 }  // namespace

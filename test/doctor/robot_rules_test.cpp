@@ -30,6 +30,14 @@ TEST(RobotRules, TfIsMissedOnlyWhereItIsWanted) {
   EXPECT_TRUE(examineRobot(robot).empty());
 }
 
+TEST(RobotRules, TfThatComesTooLateIsNotMissing) {
+  RobotFacts robot = healthy();
+  robot.tf_problem = "No tf from base_link to optical of the image's time: too old";
+  robot.tf_is_late = true;
+  expectOnly(examineRobot(robot), Code::kNoTf, {"too late or too seldom", "50 ms"});
+  EXPECT_EQ(examineRobot(robot).front().text.find("static_transform_publisher"), std::string::npos);
+}
+
 TEST(RobotRules, ThePlaneIsNotWhereTfHasTheGround) {
   RobotFacts robot = healthy();
   robot.mount = "mount moved: by 5 deg";
@@ -59,6 +67,21 @@ TEST(RobotRules, AHeightThatIsOffByAUnitIsOneOfDepth) {
   expectOnly(examineRobot(robot), Code::kDepthScale, {"multiplied by 0.1"});
   robot.height = 1.2;  // no unit
   expectOnly(examineRobot(robot), Code::kTfDisagrees);
+}
+
+TEST(RobotRules, ATableIsNoUnit) {
+  // 0.78 m high, before a camera 1.0 m up.
+  RobotFacts robot = healthy();
+  robot.height = 0.22;
+  robot.tf_height = 1.0;
+  EXPECT_TRUE(examineRobot(robot).empty()) << "seen just now";
+  robot.mount = "The plane is 0.78 m above where tf has the ground.";
+  robot.mount_is_height = true;
+  robot.planes_elsewhere = 100;
+  robot.planes_at_tf_height = 11;
+  EXPECT_TRUE(examineRobot(robot).empty()) << "the floor is seen as well";
+  robot.planes_at_tf_height = 10;
+  expectOnly(examineRobot(robot), Code::kDepthScale, {"multiplied by 5", "or another level"});
 }
 
 }  // namespace

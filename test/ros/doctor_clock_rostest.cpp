@@ -2,8 +2,6 @@
 
 #include <rosgraph_msgs/Clock.h>
 
-#include <sstream>
-
 #include "doctor_fixture.h"
 #include "support/diagnostics.h"
 
@@ -35,14 +33,14 @@ TEST_F(DoctorClock, IsMissedAndThenRuns) {
   Diagnostics diagnostics(node_);
   ASSERT_TRUE(
       spinUntil([&] { return diagnostics.of("no_clock/detection: detection").has_value(); }));
-  const Outcome outcome = runDoctor("--duration 2", [&] { publish(); });
+  const Outcome outcome = runDoctor(duration(2.0), [&] { publish(); });
   EXPECT_EQ(outcome.status, 1) << outcome.text;
   EXPECT_EQ(outcome.text.rfind("no-clock: ", 0), 0U) << outcome.text;
   EXPECT_NE(outcome.text.find("rosbag play --clock"), std::string::npos) << outcome.text;
   EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
 
   ros::Publisher clock = node_.advertise<rosgraph_msgs::Clock>("/clock", 10);
-  const Outcome ticking = runDoctor("--duration 3", [&] {
+  const Outcome ticking = runDoctor(duration(3.0), [&] {
     publish();
     rosgraph_msgs::Clock now;
     now.clock = image_stamp_ + ros::Duration(0.01);

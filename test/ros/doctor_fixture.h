@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <future>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,11 @@ struct BinCamera {
   sensor_msgs::Image image;
   sensor_msgs::CameraInfo info;
 };
+
+/// @return the option to listen for so long.
+inline std::string duration(double seconds) {
+  return "--duration " + std::to_string(patience() * seconds);
+}
 
 /// Runs the doctor while `publish` is called five times a second.
 template <typename Publish>

@@ -3,9 +3,9 @@
 #include <dominant_plane_detection/DominantPlane.h>
 #include <pcl_conversions/pcl_conversions.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include <cstring>
-#include <sstream>
 
 #include "core/ray_table.h"
 #include "doctor_fixture.h"
@@ -23,7 +23,8 @@ class DoctorLive : public testing::Test {
     for (const char* name :
          {"healthy", "rectified", "mounted", "no_camera_info", "camera_info_size", "uncalibrated",
           "stamps_apart", "topics_swapped", "encoding", "mirrored", "depth_scale", "range_max",
-          "upside_down", "no_tf", "tf_disagrees", "stamps_off_clock"}) {
+          "upside_down", "no_tf", "tf_disagrees", "stamps_off_clock", "late_tf", "transport",
+          "slow"}) {
       const std::string begin = "/" + std::string(name) + "/depth/";
       images_[name] = node_.advertise<sensor_msgs::Image>(begin + "image_raw", 2);
       if (std::string(name) == "no_camera_info") continue;
@@ -50,7 +51,9 @@ class DoctorLive : public testing::Test {
   /// An image of each camera.
   void publish() {
     const ros::Time now = ros::Time::now();
+    publishLateTf(now);
     for (auto& [name, publisher] : images_) {
+      if (name == "slow") continue;
       sensor_msgs::Image image = bin_.image;
       sensor_msgs::CameraInfo info = bin_.info;
       image.header.stamp = info.header.stamp = now;
@@ -62,6 +65,16 @@ class DoctorLive : public testing::Test {
     cloud_.header.stamp = now;
     cloud_.header.frame_id = "clouds_optical";
     clouds_.publish(cloud_);
+  }
+
+  /// As of a joint whose state comes a third of a second after the image.
+  void publishLateTf(const ros::Time& now) {
+    geometry_msgs::TransformStamped late;
+    late.header.frame_id = "late_base";
+    late.header.stamp = now - ros::Duration(0.3);
+    late.child_frame_id = "late_tf_optical";
+    late.transform.rotation.w = 1.0;
+    transforms_.sendTransform(late);
   }
 
   void plant(const std::string& name, sensor_msgs::Image& image,
@@ -92,6 +105,7 @@ class DoctorLive : public testing::Test {
   std::map<std::string, ros::Publisher> images_;
   std::map<std::string, ros::Publisher> infos_;
   ros::Publisher clouds_;
+  tf2_ros::TransformBroadcaster transforms_;
 };
 
 void expectOnly(const Outcome& outcome, const std::string& node, const std::string& code,
@@ -106,11 +120,15 @@ void expectOnly(const Outcome& outcome, const std::string& node, const std::stri
 
 TEST_F(DoctorLive, FindsWhatIsWrongWithEachDetectionAndNoMore) {
   Diagnostics diagnostics(node_);
+  const auto runs = [&](const std::string& name) {
+    return diagnostics.of(name + "/detection: detection").has_value();
+  };
   ASSERT_TRUE(spinUntil([&] {
-    return diagnostics.of("healthy/detection: detection") &&
-           diagnostics.of("stamps_off_clock/detection: detection");
-  })) << "all are loaded one after the other";
-  const Outcome outcome = runDoctor("--duration 7", [&] { publish(); });
+    return runs("clouds") && runs("no_images") &&
+           std::all_of(images_.begin(), images_.end(),
+                       [&](const auto& image) { return runs(image.first); });
+  })) << "they are loaded in any order";
+  const Outcome outcome = runDoctor(duration(10.0), [&] { publish(); });
   EXPECT_EQ(outcome.status, 1) << outcome.text;
   for (const char* node : {"healthy", "rectified", "clouds", "mounted"}) {
     EXPECT_TRUE(linesOf(outcome, "/" + std::string(node) + "/detection").empty()) << outcome.text;
@@ -129,19 +147,33 @@ TEST_F(DoctorLive, FindsWhatIsWrongWithEachDetectionAndNoMore) {
   expectOnly(outcome, "upside_down", "upside-down", {"expected_up_y"});
   expectOnly(outcome, "no_tf", "no-tf", {"no_such_base", "base_frame"});
   expectOnly(outcome, "tf_disagrees", "tf-disagrees", {"calibrate_mount", "mount_height"});
+  expectOnly(outcome, "late_tf", "no-tf", {"late_base", "too late or too seldom"});
+  expectOnly(outcome, "transport", "unusable-images",
+             {"cannot be subscribed", "no_such_transport", "parameter image_transport"});
   expectOnly(outcome, "stamps_off_clock", "stamps-off-clock", {"100.", "time_offset"});
 }
 
 TEST_F(DoctorLive, LooksAtOneOfThemOrAtATopic) {
-  Outcome outcome = runDoctor("--node healthy/detection --duration 2", [&] { publish(); });
+  Outcome outcome = runDoctor("--node healthy/detection " + duration(2.0), [&] { publish(); });
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_EQ(outcome.text.rfind("healthy: ", 0), 0U) << outcome.text;
   EXPECT_NE(outcome.text.find("/healthy/depth/image_raw"), std::string::npos) << outcome.text;
-  outcome = runDoctor("--topic /mirrored/depth/image_raw --set range_max=0.7 --duration 4",
+  // A dozen images, at the least, have shadows enough.
+  outcome = runDoctor("--topic /mirrored/depth/image_raw --set range_max=0.7 " + duration(8.0),
                       [&] { publish(); });
   EXPECT_EQ(outcome.status, 1) << outcome.text;
   EXPECT_EQ(outcome.text.rfind("range-max: ", 0), 0U) << outcome.text;
   EXPECT_NE(outcome.text.find("\nmirrored: "), std::string::npos) << outcome.text;
+  outcome = runDoctor("--node healthy/detection --set range_max=0.7 " + duration(2.0),
+                      [&] { publish(); });
+  EXPECT_EQ(outcome.status, 1) << outcome.text;
+  EXPECT_EQ(outcome.text.rfind("range-max: ", 0), 0U) << "what is set overrides: " << outcome.text;
+  // The input is well by another transport, but the detection does not take it.
+  outcome = runDoctor("--node transport/detection --set image_transport=raw " + duration(4.0),
+                      [&] { publish(); });
+  EXPECT_EQ(outcome.status, 1) << outcome.text;
+  EXPECT_EQ(outcome.text.rfind("unusable-images: ", 0), 0U) << outcome.text;
+  EXPECT_NE(outcome.text.find("cannot subscribe"), std::string::npos) << outcome.text;
   outcome = runDoctor("--node no_such_node", [&] { publish(); });
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.text.find("/healthy/detection"), std::string::npos) << outcome.text;
@@ -167,10 +199,33 @@ TEST_F(DoctorLive, DiagnosticsNameTheCause) {
             0U);
   EXPECT_TRUE(says("encoding", DiagnosticStatus::WARN, "no depth in millimetres"))
       << diagnostics.message("encoding/detection: detection");
+  EXPECT_EQ(
+      diagnostics.value("encoding/detection: detection", "likeliest cause").rfind("encoding: ", 0),
+      0U);
   EXPECT_TRUE(says("healthy", DiagnosticStatus::OK, "a plane in"));
   EXPECT_EQ(diagnostics.value("healthy/detection: detection", "likeliest cause"), "");
   EXPECT_EQ(diagnostics.value("healthy/detection: detection", "topic of depth images"),
             "/healthy/depth/image_raw");
+}
+
+TEST_F(DoctorLive, DiagnosticsNameTheCauseBeforeSlowness) {
+  Diagnostics diagnostics(node_);
+  Listener<DominantPlane> slow(node_, "/slow/detection/plane");
+  const auto publishFast = [&] {
+    bin_.image.header.stamp = bin_.info.header.stamp = ros::Time::now();
+    bin_.image.header.frame_id = bin_.info.header.frame_id = "slow_optical";
+    infos_["slow"].publish(bin_.info);
+    images_["slow"].publish(bin_.image);
+  };
+  EXPECT_TRUE(spinUntil(
+      [&] {
+        publishFast();
+        return diagnostics.waitFor("slow/detection: detection",
+                                   diagnostic_msgs::DiagnosticStatus::WARN,
+                                   "change the sign of expected_up_y", 0.02);
+      },
+      40.0))
+      << diagnostics.message("slow/detection: detection");
 }
 
 }  // namespace

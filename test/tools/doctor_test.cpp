@@ -4,6 +4,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
@@ -20,6 +21,7 @@
 #include "support/command.h"
 #include "support/oni_recording.h"
 #include "support/recordings.h"
+#include "tools/doctor_sample.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -169,7 +171,7 @@ TEST_F(Doctor, LooksAtImagesOfFoldersAndOniRecordings) {
   ASSERT_EQ(run(render + path("images")).status, 0);
   const std::string images = path("images/depth") + " --camera 580,580,319.5,239.5";
   expectHealthy(doctor(images), "3 of 3 depth images, 3 with a plane");
-  expectOnly(doctor(images + " --depth-scale 200"), "depth-scale", {"--depth-scale"});
+  expectOnly(doctor(images + " --depth-scale 100"), "depth-scale", {"--depth-scale"});
   EXPECT_EQ(doctor(path("images/depth")).status, 2) << "a PNG does not say its camera";
   recordOni("virtual://rubbish_bin?serial=DOCTOR&noise=0", path("drive.oni"), 4);
   expectHealthy(doctor(path("drive.oni")), "with a plane");
@@ -282,6 +284,41 @@ TEST_F(Doctor, NoDepthTopic) {
              {"/depth/image_raw", "/camera/depth/image_raw"});
 }
 
+TEST_F(Doctor, PackedDepth) {
+  Fault fault;
+  fault.image = [](sensor_msgs::Image&) { return false; };
+  const std::string bag = plant(fault);
+  {
+    rosbag::Bag out(bag, rosbag::bagmode::Append);
+    sensor_msgs::CompressedImage packed;
+    packed.format = "16UC1; compressedDepth";
+    out.write("/camera/depth/image_raw/compressedDepth", ros::Time(1.6e9), packed);
+  }
+  const Words words{"republish compressedDepth in:=/camera/depth/image_raw raw"};
+  expectOnly(doctor(bag), "no-images", words);
+  expectOnly(doctor(bag + " --topic /camera/depth/image_raw"), "no-images", words);
+  expectOnly(doctor(bag + " --topic /camera/depth/image_raw/compressedDepth"), "topics-swapped",
+             words);
+}
+
+TEST_F(Doctor, ACorrectionIsApplied) {
+  std::ofstream(path("correction.yaml")) << "columns: 1\nrows: 1\n"
+                                            "inverse_depth: [0.1]\n";
+  const std::string arguments = path("drive.bag") + " --set range_max=0.75";
+  const std::string file = path("correction.yaml");
+  expectOnly(doctor(arguments + " --correction " + file), "range-max", {});
+  expectOnly(doctor(arguments + " --set correction=" + file), "range-max", {});
+  expectHealthy(doctor(arguments + " --set correction="), "16 with a plane");
+  EXPECT_EQ(doctor(arguments + " --correction /no/such.yaml").status, 2);
+}
+
+TEST(DoctorSample, IsSpreadOverAllImages) {
+  for (const std::size_t few : {0U, 1U, 60U}) EXPECT_EQ(sampleStep(few), 1U) << few;
+  EXPECT_EQ(sampleStep(61), 2U);
+  EXPECT_EQ(sampleStep(120), 2U);
+  EXPECT_EQ(sampleStep(121), 3U);
+}
+
 TEST_F(Doctor, WhatItCannotLookAtIsNoFinding) {
   for (const char* arguments : {"--frob", "/no/such.bag", "--duration 0"}) {
     EXPECT_EQ(doctor(arguments).status, 2) << arguments;
@@ -308,7 +345,7 @@ class DoctorOnRecordings : public Doctor {
 };
 
 TEST_F(DoctorOnRecordings, FindsNothing) {
-  expectHealthy(doctor(recording("robot_lab.bag")), "40 with a plane");
+  expectHealthy(doctor(recording("robot_lab.bag")), "60 with a plane");
   // A desk, without any floor in most images.
   expectHealthy(doctor(recording("handheld_desk.bag")), "50 of 150");
   expectHealthy(doctor(recording("handheld_desk.bag --set base_frame=world")), "150 of 150");
