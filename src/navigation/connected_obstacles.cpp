@@ -74,11 +74,14 @@ void ConnectedObstacles::collect(const Image& image, const ObstacleLimits& limit
       const Label label = image.detection.label(pixel.x(), pixel.y());
       if (label != Label::kObstacle && label != Label::kGround) continue;
       const float z = metresAt(image.depth, pixel.x(), pixel.y());
-      const Eigen::Vector3f ray = rotation_ * image.rays.ray(pixel.x(), pixel.y());
-      ObstaclePoint point{z * ray.x(), z * ray.y(), height_ + z * ray.z(), z, false, 0};
-      point.steep = label == Label::kObstacle && isSteep(image, pixel);
-      const bool floor =
-          label == Label::kGround || (!point.steep && risesFromFloor(point, across, line));
+      const Eigen::Vector3f ray = image.rays.ray(pixel.x(), pixel.y());
+      if (label == Label::kGround) {
+        floor_[nodeOf(across, line)] = height_ + z * rotation_.row(2).dot(ray);
+        continue;
+      }
+      const Eigen::Vector3f at = z * (rotation_ * ray);
+      ObstaclePoint point{at.x(), at.y(), height_ + at.z(), z, isSteep(image, pixel), 0};
+      const bool floor = !point.steep && risesFromFloor(point, across, line);
       if (floor) floor_[nodeOf(across, line)] = point.height;
       if (floor || !(point.height >= low && point.height <= high)) continue;
       point.thing = static_cast<std::uint32_t>(points_.size());
@@ -134,9 +137,12 @@ void ConnectedObstacles::connect(int across, int line) {
 void ConnectedObstacles::link(std::uint32_t a, std::uint32_t b) {
   const ObstaclePoint &p = points_[a], &q = points_[b];
   const bool near = std::abs(p.z - q.z) <= kJump + kJumpOfDepth * p.z;
-  const bool level = std::abs(p.height - q.height) <= kLevel + kLevelOfDepth * p.z &&
-                     std::hypot(p.x - q.x, p.y - q.y) <= kApart;
-  if (!near && !level) return;
+  const auto level = [&] {
+    const float dx = p.x - q.x, dy = p.y - q.y;
+    return std::abs(p.height - q.height) <= kLevel + kLevelOfDepth * p.z &&
+           dx * dx + dy * dy <= kApart * kApart;
+  };
+  if (!near && !level()) return;
   const std::uint32_t first = thingOf(a), second = thingOf(b);
   points_[std::max(first, second)].thing = std::min(first, second);
 }
