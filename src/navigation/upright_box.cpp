@@ -7,10 +7,10 @@
 namespace dominant_plane_detection {
 namespace {
 
-constexpr float kBin = 0.01F;                 // [m] in which extents are told
-constexpr float kTrimmed = 0.005F;            // [-] of the points at each end
-constexpr int kDirections = 18;               // [#] 5 degrees apart
-constexpr std::ptrdiff_t kLeastOfMany = 400;  // [#] points that are looked at
+constexpr float kBin = 0.01F;                  // [m] in which extents are told
+constexpr float kTrimmed = 0.005F;             // [-] of the points at each end
+constexpr int kDirections = 18;                // [#] 5 degrees apart
+constexpr std::ptrdiff_t kLeastOfMany = 1000;  // [#] points that are looked at
 
 }  // namespace
 

@@ -19,7 +19,7 @@ struct UprightBox {
 };
 
 /// Draws boxes about points: the one of least area, of 18 directions, with nearly all of them in
-/// each extent, so that single wrong readings do not count. Of more than some hundred points a
+/// each extent, so that single wrong readings do not count. Of more than some thousand points a
 /// part is looked at.
 class BoxFitter {
  public:

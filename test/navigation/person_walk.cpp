@@ -9,6 +9,20 @@
 
 namespace dominant_plane_detection {
 
+namespace {
+
+/// @return whether a cell and all about it are in a set: it is not at the border of the view.
+bool isWithin(const std::set<WorldCell>& cells, const WorldCell& cell) {
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      if (cells.count({cell.first + x, cell.second + y}) == 0) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
 PersonFigures letPersonWalkPast(ErrorKind error, std::uint32_t seed, double speed, double rate) {
   constexpr double kGoes = 3.0, kWalks = 1.0, kAfter = 3.0;  // [s], [m/s], [s]
   SceneRandom random(seed);
@@ -68,7 +82,7 @@ PersonFigures letPersonWalkPast(ErrorKind error, std::uint32_t seed, double spee
     const std::set<WorldCell> floor = floorCells(exact, rays, camera, limits.free_range);
     figures.occupied = static_cast<int>(occupied.size());
     for (const WorldCell& cell : occupied) {
-      if (floor.count(cell) == 0) continue;
+      if (!isWithin(floor, cell)) continue;
       ++figures.trace;
       figures.left += freed.count(cell) == 0;
     }

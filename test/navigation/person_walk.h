@@ -10,7 +10,7 @@ namespace dominant_plane_detection {
 /// and what the map has of the way afterwards.
 struct PersonFigures {
   int occupied = 0;  ///< [#] cells of the way that were occupied while the person was in view
-  int trace = 0;     ///< [#] of them, those in view 3 s after the person went
+  int trace = 0;     ///< [#] of them, those in view, with all about them, 3 s after the person went
   int left = 0;      ///< [#] of these, that have not been free since
 };
 /// @param speed [m/s] of the robot. @param rate [1/s] of images.
