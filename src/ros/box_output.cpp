@@ -2,6 +2,7 @@
 
 #include "navigation/ground_frame.h"
 #include "ros/box_messages.h"
+#include "ros/listeners.h"
 #include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
@@ -18,8 +19,7 @@ BoxOutput::BoxOutput(ros::NodeHandle& private_node, const NodeParameters& parame
       frames_(frames),
       rays_(rays),
       tracks_(static_cast<std::uint32_t>(parameters.box_images)) {
-  const ros::SubscriberStatusCallback changed =
-      [listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); };
+  const auto changed = calledByPublishers(listeners_changed);
   boxes_ =
       private_node.advertise<ObstacleBoxArray>(topics::kObstacleBoxes, kQueue, changed, changed);
   markers_ = private_node.advertise<visualization_msgs::MarkerArray>(topics::kBoxMarkers, kQueue,

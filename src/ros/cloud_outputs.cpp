@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "ros/cloud_conversion.h"
+#include "ros/listeners.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -19,8 +20,7 @@ CloudOutputs::CloudOutputs(ros::NodeHandle& private_node, const NodeParameters& 
                            RobotFrames& frames, PictureInput& pictures, RayTable& rays,
                            const std::function<void()>& listeners_changed)
     : parameters_(parameters), frames_(frames), pictures_(pictures), rays_(rays) {
-  const ros::SubscriberStatusCallback changed =
-      [listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); };
+  const auto changed = calledByPublishers(listeners_changed);
   for (LabelledCloud& cloud : clouds_) {
     cloud.publisher =
         private_node.advertise<sensor_msgs::PointCloud2>(cloud.topic, kQueue, changed, changed);

@@ -4,6 +4,7 @@
 
 #include "ros/detection_messages.h"
 #include "ros/ground_outline.h"
+#include "ros/listeners.h"
 #include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
@@ -16,12 +17,7 @@ constexpr std::uint32_t kQueue = 10;
 
 void DetectionOutputs::advertise(ros::NodeHandle& node,
                                  const std::function<void()>& listeners_changed) {
-  const ros::SubscriberStatusCallback changed =
-      [listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); };
-  const image_transport::SubscriberStatusCallback image_changed =
-      [listeners_changed](const image_transport::SingleSubscriberPublisher&) {
-        listeners_changed();
-      };
+  const auto changed = calledByPublishers(listeners_changed);
   plane_ = node.advertise<DominantPlane>(topics::kPlane, kQueue, changed, changed);
   planes_ = node.advertise<DominantPlaneArray>(topics::kPlanes, kQueue, changed, changed);
   coefficients_ =
@@ -33,10 +29,10 @@ void DetectionOutputs::advertise(ros::NodeHandle& node,
   markers_ =
       node.advertise<visualization_msgs::MarkerArray>(topics::kMarkers, kQueue, changed, changed);
   image_transport::ImageTransport transport(node);
-  mask_ = transport.advertise(topics::kGroundMask, kQueue, image_changed, image_changed);
-  labels_ = transport.advertise(topics::kLabels, kQueue, image_changed, image_changed);
-  plane_index_ = transport.advertise(topics::kPlaneIndex, kQueue, image_changed, image_changed);
-  height_image_ = transport.advertise(topics::kHeightImage, kQueue, image_changed, image_changed);
+  mask_ = transport.advertise(topics::kGroundMask, kQueue, changed, changed);
+  labels_ = transport.advertise(topics::kLabels, kQueue, changed, changed);
+  plane_index_ = transport.advertise(topics::kPlaneIndex, kQueue, changed, changed);
+  height_image_ = transport.advertise(topics::kHeightImage, kQueue, changed, changed);
 }
 
 bool DetectionOutputs::anybodyListens() const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 
+#include "ros/listeners.h"
 #include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
@@ -22,23 +23,15 @@ void DriverOutputs::advertise(const ros::NodeHandle& node, const DriverNames& na
   names_ = names;
   const std::string urls[] = {names.depth_camera_info_url, names.rgb_camera_info_url,
                               names.ir_camera_info_url};
-  const auto image_changed =
-      [listeners_changed](const image_transport::SingleSubscriberPublisher&) {
-        listeners_changed();
-      };
-  const auto info_changed = [listeners_changed](const ros::SingleSubscriberPublisher&) {
-    listeners_changed();
-  };
+  const auto changed = calledByPublishers(listeners_changed);
   image_transport::ImageTransport transport(node);
   ros::NodeHandle plain = node;
-  disparity_ = plain.advertise<sensor_msgs::Image>(topics::kRawDisparity, kQueue, info_changed,
-                                                   info_changed);
-  projector_ = plain.advertise<sensor_msgs::CameraInfo>(topics::kProjector, kQueue, info_changed,
-                                                        info_changed);
-  imu_ = plain.advertise<sensor_msgs::Imu>(topics::kImu, kQueue, info_changed, info_changed);
+  disparity_ = plain.advertise<sensor_msgs::Image>(topics::kRawDisparity, kQueue, changed, changed);
+  projector_ =
+      plain.advertise<sensor_msgs::CameraInfo>(topics::kProjector, kQueue, changed, changed);
+  imu_ = plain.advertise<sensor_msgs::Imu>(topics::kImu, kQueue, changed, changed);
   const auto advertise = [&](const char* topic) {
-    return transport.advertiseCamera(topic, kQueue, image_changed, image_changed, info_changed,
-                                     info_changed);
+    return transport.advertiseCamera(topic, kQueue, changed, changed, changed, changed);
   };
   const char* const stream_topics[] = {topics::kDepth, topics::kColour, topics::kInfrared};
   for (const StreamKind kind : kAllStreams) {

@@ -5,6 +5,7 @@
 #include "navigation/ground_frame.h"
 #include "navigation/told_height.h"
 #include "ros/detection_messages.h"
+#include "ros/listeners.h"
 #include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
@@ -29,8 +30,7 @@ MapOutput::MapOutput(ros::NodeHandle& private_node, const NodeParameters& parame
       rays_(rays),
       map_(parameters.map_resolution, parameters.map_size,
            parameters.odom_frame.empty() ? 0.0 : parameters.map_memory) {
-  const ros::SubscriberStatusCallback changed =
-      [listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); };
+  const auto changed = calledByPublishers(listeners_changed);
   publisher_ =
       private_node.advertise<nav_msgs::OccupancyGrid>(topics::kLocalMap, kQueue, changed, changed);
 }

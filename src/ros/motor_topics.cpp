@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ros/listeners.h"
 #include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
@@ -25,9 +26,7 @@ void MotorTopics::advertise(ros::NodeHandle node, Orders orders,
   orders_ = std::move(orders);
   tilt_topic_ = node.resolveName(topics::kTilt);
   led_topic_ = node.resolveName(topics::kLed);
-  const auto changed = [listeners_changed](const ros::SingleSubscriberPublisher&) {
-    listeners_changed();
-  };
+  const auto changed = calledByPublishers(listeners_changed);
   angle_ = node.advertise<std_msgs::Float64>(topics::kTiltNow, kQueue, changed, changed);
   tilt_ = node.subscribe<std_msgs::Float64>(
       topics::kTilt, kQueue,

@@ -3,6 +3,7 @@
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include "ros/listeners.h"
 #include "ros/overlay.h"
 #include "ros/topic_names.h"
 
@@ -16,9 +17,7 @@ constexpr std::uint32_t kQueue = 10;
 OverlayOutput::OverlayOutput(const ros::NodeHandle& private_node, PictureInput& pictures,
                              const std::function<void()>& listeners_changed)
     : pictures_(pictures) {
-  const auto changed = [listeners_changed](const image_transport::SingleSubscriberPublisher&) {
-    listeners_changed();
-  };
+  const auto changed = calledByPublishers(listeners_changed);
   publisher_ = image_transport::ImageTransport(private_node)
                    .advertise(topics::kOverlay, kQueue, changed, changed);
 }

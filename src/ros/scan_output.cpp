@@ -3,6 +3,7 @@
 #include <sensor_msgs/LaserScan.h>
 
 #include "ros/detection_messages.h"
+#include "ros/listeners.h"
 #include "ros/topic_names.h"
 
 namespace dominant_plane_detection {
@@ -15,8 +16,7 @@ constexpr std::uint32_t kQueue = 10;
 ScanOutput::ScanOutput(ros::NodeHandle& private_node, const NodeParameters& parameters,
                        RayTable& rays, const std::function<void()>& listeners_changed)
     : limits_{obstacleLimits(parameters), parameters.scan_missing_ground, 0.0}, rays_(rays) {
-  const ros::SubscriberStatusCallback changed =
-      [listeners_changed](const ros::SingleSubscriberPublisher&) { listeners_changed(); };
+  const auto changed = calledByPublishers(listeners_changed);
   publisher_ =
       private_node.advertise<sensor_msgs::LaserScan>(topics::kScan, kQueue, changed, changed);
 }
