@@ -53,7 +53,6 @@ Pose findPose(const tf2::BufferCore& buffer, const std::string& target, const st
 
 void RobotFrames::listen() {
   if (transforms_) return;
-  if (!buffer_) buffer_ = std::make_unique<tf2_ros::Buffer>();
   // Not tf2's listener: what went out from here comes back, and tf2 warns of each that is known.
   const auto subscribe = [this](const char* topic, bool is_static) {
     constexpr std::uint32_t kQueue = 100;
@@ -73,11 +72,11 @@ void RobotFrames::rest() {
 
 void RobotFrames::onTransforms(const tf2_msgs::TFMessage& message, bool is_static) {
   const ros::Time now = ros::Time::now();
-  if (now < last_message_) buffer_->clear();  // a recording begins again
+  if (now < last_message_) buffer_.clear();  // a recording begins again
   last_message_ = now;
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     try {
-      if (!isOwn(transform)) buffer_->setTransform(transform, "tf", is_static);
+      if (!isOwn(transform)) buffer_.setTransform(transform, "tf", is_static);
     } catch (const tf2::TransformException& error) {
       ROS_WARN_STREAM_THROTTLE(5.0, "Dropped a transform from "
                                         << transform.header.frame_id << " to "
@@ -96,14 +95,13 @@ bool RobotFrames::isOwn(const geometry_msgs::TransformStamped& transform) const 
 Pose RobotFrames::pose(const std::string& target, const std::string& source,
                        const ros::Time& stamp) {
   if (plainFrame(target) != plainFrame(source)) listen();
-  static const tf2::BufferCore kEmpty;
-  return findPose(buffer_ ? *buffer_ : kEmpty, target, source, stamp);
+  return findPose(buffer_, target, source, stamp);
 }
 
 std::string RobotFrames::parentOf(const std::string& frame) {
   listen();
   std::string parent;
-  return buffer_->_getParent(plainFrame(frame), ros::Time(0), parent) ? parent : "";
+  return buffer_._getParent(plainFrame(frame), ros::Time(0), parent) ? parent : "";
 }
 
 void RobotFrames::broadcast(const std::string& parent, const std::string& child,
@@ -116,7 +114,7 @@ void RobotFrames::broadcast(const std::string& parent, const std::string& child,
   broadcaster_->sendTransform(message);
   sent_[message.child_frame_id] = message;
   // Known here at once, for what else is made of this image.
-  if (buffer_) buffer_->setTransform(message, "dominant_plane_detection", false);
+  buffer_.setTransform(message, "dominant_plane_detection", false);
 }
 
 }  // namespace dominant_plane_detection

@@ -4,7 +4,6 @@
 #include <ros/node_handle.h>
 #include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
-#include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <Eigen/Geometry>
@@ -69,7 +68,7 @@ class RobotFrames {
   bool isOwn(const geometry_msgs::TransformStamped& transform) const;
 
   ros::NodeHandle node_;
-  std::unique_ptr<tf2_ros::Buffer> buffer_;
+  tf2::BufferCore buffer_;
   ros::Subscriber transforms_, static_transforms_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> broadcaster_;
   /// The last transforms that went out, by child.

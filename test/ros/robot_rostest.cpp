@@ -5,6 +5,7 @@
 #include <pcl_ros/point_cloud.h>
 #include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/LaserScan.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -13,6 +14,7 @@
 
 #include "dominant_plane_detection/detection.h"
 #include "robot_fixture.h"
+#include "ros/robot_frames.h"
 #include "support/diagnostics.h"
 
 namespace dominant_plane_detection {
@@ -322,6 +324,40 @@ TEST_F(Robot, TimeThatGoesBackBeginsAnew) {
   EXPECT_TRUE(isFrom(*planes.last(), DominantPlane::UP_TF, kHeight));
   sendImages(image_, 1);
   EXPECT_TRUE(planes.last()->tracked);
+}
+
+/// What went out comes back: tf2 would warn of each transform that it knows. What somebody else
+/// says of the same frame is heard.
+TEST_F(Robot, OwnTransformsThatComeBackAreNoRepetition) {
+  RobotFrames frames(node_);
+  frames.listen();
+  Listener<tf2_msgs::TFMessage> heard(node_, "/tf");
+  const auto publisher = node_.advertise<tf2_msgs::TFMessage>("/tf", 10);
+  ASSERT_TRUE(spinUntil([&] { return publisher.getNumSubscribers() > 1; }));
+  const auto cameBack = [&](const ros::Time& stamp) {
+    return std::any_of(heard.messages().begin(), heard.messages().end(), [&](const auto& message) {
+      return message->transforms.at(0).child_frame_id == "own_ground" &&
+             message->transforms[0].header.stamp == stamp;
+    });
+  };
+  testing::internal::CaptureStderr();
+  for (int i = 0; i < 20; ++i) {
+    stamp_ += ros::Duration(1.0 / 30.0);
+    frames.broadcast("optical", "own_ground", stamp_, Eigen::Isometry3d::Identity());
+    EXPECT_TRUE(frames.pose("optical", "own_ground", stamp_).exact);
+  }
+  EXPECT_TRUE(spinUntil([&] { return cameBack(stamp_); }));
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(said.find("TF_REPEATED_DATA"), std::string::npos) << said;
+
+  geometry_msgs::TransformStamped other = tf2::eigenToTransform(Eigen::Isometry3d::Identity());
+  other.header.frame_id = "map";
+  other.header.stamp = stamp_ + ros::Duration(1.0);
+  other.child_frame_id = "own_ground";
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(other);
+  publisher.publish(message);
+  EXPECT_TRUE(spinUntil([&] { return frames.parentOf("own_ground") == "map"; }));
 }
 
 }  // namespace
