@@ -48,11 +48,11 @@ void ConnectedObstacles::setView(const Image& image) {
   const CameraModel& camera = image.rays.camera();
   pixel_area_ = static_cast<float>(kStep * kStep / (camera.fx * camera.fy));
   down_ = downOf(detection.normal);
-  columns_ = (detection.image_width + kStep - 1) / kStep;
-  rows_ = (detection.image_height + kStep - 1) / kStep;
+  const int columns = (detection.image_width + kStep - 1) / kStep;
+  const int rows = (detection.image_height + kStep - 1) / kStep;
   const bool sideways = down_.x() != 0;
-  width_ = sideways ? rows_ : columns_;
-  lines_ = sideways ? columns_ : rows_;
+  width_ = sideways ? rows : columns;
+  lines_ = sideways ? columns : rows;
   nodes_.assign(nodeOf(0, lines_), 0);
   floor_.assign(nodes_.size(), kNoFloor);
   points_.clear();

@@ -66,8 +66,7 @@ class ConnectedObstacles {
   /// [px] the step towards the ground along rows or columns, whichever the camera's roll has more
   /// upright; 0 where it looks down. Lines are across it, the lowest first.
   Eigen::Vector2i down_ = Eigen::Vector2i::UnitY();
-  int columns_ = 0, rows_ = 0;        ///< [#] of pixels that are looked at
-  int width_ = 0, lines_ = 0;         ///< [#] of them, in a line, and of lines
+  int width_ = 0, lines_ = 0;         ///< [#] of pixels that are looked at, in a line, and of lines
   std::vector<std::uint32_t> nodes_;  ///< for each of these, the number of its point + 1, or 0
   std::vector<float> floor_;          ///< [m] height of these where they are floor
   std::vector<ObstaclePoint> points_, sorted_;

@@ -28,8 +28,8 @@ struct MapLimits : ObstacleLimits {
 /// A cell has two log-odds. That of its surface says whether there is ground: an image is asked
 /// what it shows where the cell is on the plane. That of things says whether something stands or
 /// hangs over it: readings add to it, and only who looks through the place where it was takes from
-/// it, so that floor seen below a table does not make the table go away. What is not seen is
-/// forgotten, at the pace at which odometry goes wrong.
+/// it, so that floor seen below a table does not make the table go away. What is not seen fades at
+/// the pace at which odometry goes wrong, into what is not known, never into what is free.
 class LocalMap {
  public:
   enum State : std::int8_t { kUnknown = -1, kFree = 0, kOccupied = 100 };

@@ -23,11 +23,10 @@ const std::vector<UprightBox>& ObstacleBoxes::find(const DepthView& depth, const
                                                    const NoiseModel& local_error) {
   boxes_.clear();
   if (!detection.found()) return boxes_;
-  foot_ = footHeight(limits);
   things_.find(depth, rays, detection, limits);
   for (std::size_t i = 0; i < things_.size(); ++i) {
     if (isThing(things_.begin(i), things_.end(i), limits, local_error)) {
-      draw(things_.begin(i), things_.end(i));
+      draw(things_.begin(i), things_.end(i), limits);
     }
   }
   std::sort(boxes_.begin(), boxes_.end(),
@@ -62,10 +61,10 @@ bool ObstacleBoxes::isThing(const ObstaclePoint* first, const ObstaclePoint* las
 }
 
 /// In the middle of its length, until no part is large.
-void ObstacleBoxes::draw(ObstaclePoint* first, ObstaclePoint* last) {
+void ObstacleBoxes::draw(ObstaclePoint* first, ObstaclePoint* last, const ObstacleLimits& limits) {
   UprightBox box = fitter_.fit(first, last);
   if (box.length <= kLargeLength || box.width <= kLargeWidth) {
-    if (box.bottom < foot_) box.bottom = 0.0;
+    if (box.bottom < footHeight(limits)) box.bottom = 0.0;
     boxes_.push_back(box);
     return;
   }
@@ -75,8 +74,8 @@ void ObstacleBoxes::draw(ObstaclePoint* first, ObstaclePoint* last) {
   ObstaclePoint* const second = std::partition(first, last, [&](const ObstaclePoint& p) {
     return ahead.x() * p.x + ahead.y() * p.y < middle;
   });
-  if (areaOf(first, second) >= kLeastArea) draw(first, second);
-  if (areaOf(second, last) >= kLeastArea) draw(second, last);
+  if (areaOf(first, second) >= kLeastArea) draw(first, second, limits);
+  if (areaOf(second, last) >= kLeastArea) draw(second, last, limits);
 }
 
 }  // namespace dominant_plane_detection

@@ -30,11 +30,10 @@ class ObstacleBoxes {
   float areaOf(const ObstaclePoint* first, const ObstaclePoint* last) const;
   bool isThing(const ObstaclePoint* first, const ObstaclePoint* last, const ObstacleLimits& limits,
                const NoiseModel& local_error) const;
-  void draw(ObstaclePoint* first, ObstaclePoint* last);
+  void draw(ObstaclePoint* first, ObstaclePoint* last, const ObstacleLimits& limits);
 
   ConnectedObstacles things_;
   BoxFitter fitter_;
-  double foot_ = 0.0;  ///< [m] what reaches down to here stands on the ground
   std::vector<UprightBox> boxes_;
 };
 

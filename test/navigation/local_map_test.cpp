@@ -157,6 +157,26 @@ TEST(LocalMap, NothingFadesIntoWhatIsFree) {
 
 /// A wrong reading above it makes a thing higher than it is: that the camera looks through there
 /// does not take it away.
+/// Also where the floor below it is seen all the time: it is seen to be free after that at the
+/// earliest.
+TEST(LocalMap, WhatIsForgottenIsUnknownFirst) {
+  const Eigen::Vector2d place = polar(0.0, 1.72);
+  GroundSight table(15.0 * kDegree, 0.0), below(38.0 * kDegree, 0.0);
+  table.addPost(0.0, 1.72, 0.45, 0.55);
+  Map map;
+  map.add(table);
+  for (int i = 0; i < 66; ++i) {
+    map.wait(0.5);
+    map.add(below);
+    EXPECT_NE(map.at(place), LocalMap::kFree) << i;
+  }
+  map.wait(3.0);
+  EXPECT_EQ(map.at(polar(0.1, 1.72)), LocalMap::kFree);
+  EXPECT_EQ(map.at(place), LocalMap::kUnknown);
+  map.add(below);
+  EXPECT_EQ(map.at(place), LocalMap::kFree);
+}
+
 TEST(LocalMap, AThingHasToBeLookedThroughFromTopToBottom) {
   GroundSight too_high(15.0 * kDegree, 0.0), farther(15.0 * kDegree, 0.0);
   too_high.addPost(0.0, 1.52, 0.15, 0.9);

@@ -244,6 +244,33 @@ TEST_F(Navigation, ThingsAreBoxesThatKeepTheirNumbers) {
   EXPECT_NE(boxes.last()->boxes[1].id, box.id);
 }
 
+/// A pose of a thirtieth of a second ago would put what is seen where it is not.
+TEST_F(Navigation, PosesOfAnotherTimeAddNothingToTheMap) {
+  tf2_ros::TransformBroadcaster broadcaster;
+  Listener<DominantPlane> planes(node_, "/slow_odometry/plane");
+  Listener<nav_msgs::OccupancyGrid> maps(node_, "/slow_odometry/local_map");
+  ASSERT_TRUE(ready(planes, maps));
+  const auto sendOdometry = [&](const ros::Time& stamp) {
+    geometry_msgs::TransformStamped pose = tf2::eigenToTransform(Eigen::Isometry3d::Identity());
+    pose.header.frame_id = "base_link";
+    pose.header.stamp = stamp;
+    pose.child_frame_id = "slow_odom";
+    broadcaster.sendTransform(pose);
+    return spinUntil([&] { return buffer_.canTransform("slow_odom", "optical", stamp); });
+  };
+  const sensor_msgs::Image image = imageOf(boxSight());
+  int late = 0;
+  EXPECT_TRUE(sendUntil(planes, image, [&](const DominantPlane&) {
+    EXPECT_TRUE(sendOdometry(stamp_));  // of the image before the next
+    return ++late >= 20;
+  }));
+  EXPECT_EQ(maps.size(), 0U);
+  EXPECT_TRUE(sendUntil(planes, image, [&](const DominantPlane&) {
+    EXPECT_TRUE(sendOdometry(stamp_ + ros::Duration(1.0 / 30.0)));
+    return maps.size() > 0 && stateAt(*maps.last(), {1.52, 0.0}) == 100;
+  }));
+}
+
 /// Odometry at 10 Hz has nothing for every third image of 30 Hz.
 TEST_F(Navigation, SlowOdometryKeepsNumbersToo) {
   tf2_ros::TransformBroadcaster broadcaster;
