@@ -13,3 +13,11 @@ set(CMAKE_INSTALL_RPATH "$ORIGIN:$ORIGIN/..")
 function(dpd_target_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
 endfunction()
+
+# A part of the package that needs no more than the core: a static library by the part's name.
+function(dpd_add_core_part part)
+  add_library(${PROJECT_NAME}_${part} STATIC ${ARGN})
+  dpd_target_options(${PROJECT_NAME}_${part})
+  target_include_directories(${PROJECT_NAME}_${part} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${PROJECT_NAME}_${part} PUBLIC ${PROJECT_NAME}_core)
+endfunction()
