@@ -79,9 +79,9 @@ void ImageTrials::add(const DepthView& depth, const CameraModel& camera, const P
 
 Finding ImageTrials::describe(const Trial& trial) const {
   char text[700];
-  const char* const without = "No plane in %zu of %zu images (%s)";
   char begin[400];
-  std::snprintf(begin, sizeof(begin), without, failed_, images_, reason_.c_str());
+  std::snprintf(begin, sizeof(begin), "No plane in %zu of %zu images (%s)", failed_, images_,
+                reason_.c_str());
   if (trial.upside_down) {
     std::snprintf(text, sizeof(text),
                   "%s, but with the camera upside down %zu of these have one: %s.", begin,

@@ -21,7 +21,13 @@ std::optional<DepthView::Type> depthType(const std::string& encoding) {
 
 }  // namespace
 
-bool isDepthEncoding(const std::string& encoding) { return depthType(encoding).has_value(); }
+void describe(const sensor_msgs::Image& image, InputFacts& facts) {
+  facts.frame_id = image.header.frame_id;
+  facts.encoding = image.encoding;
+  facts.encoding_is_depth = depthType(image.encoding).has_value();
+  facts.width = static_cast<int>(image.width);
+  facts.height = static_cast<int>(image.height);
+}
 
 std::optional<DepthView> DepthReader::read(const sensor_msgs::Image& image, std::string& error) {
   const auto type = depthType(image.encoding);

@@ -7,12 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "doctor/facts.h"
 #include "dominant_plane_detection/depth_image.h"
 
 namespace dominant_plane_detection {
 
-/// @return whether images of an encoding can be depth in millimetres or metres.
-bool isDepthEncoding(const std::string& encoding);
+/// Fills in what can be said of an image whether or not it can be used.
+void describe(const sensor_msgs::Image& image, InputFacts& facts);
 
 /// Looks at depth image messages as the core does: 16UC1 and mono16 in millimetres, 32FC1 in metres
 /// (REP 118), of either byte order.

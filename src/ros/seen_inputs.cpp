@@ -13,11 +13,7 @@ void SeenInputs::keepLatest(std::vector<double>& stamps, const ros::Time& stamp)
 }
 
 void SeenInputs::add(const sensor_msgs::Image& image) {
-  facts_.frame_id = image.header.frame_id;
-  facts_.encoding = image.encoding;
-  facts_.encoding_is_depth = isDepthEncoding(image.encoding);
-  facts_.width = static_cast<int>(image.width);
-  facts_.height = static_cast<int>(image.height);
+  describe(image, facts_);
   keepLatest(image_stamps_, image.header.stamp);
 }
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "bag_topics.h"
+#include "doctor/topic_advice.h"
 #include "frame_source.h"
 #include "ros/camera_conversion.h"
 #include "ros/depth_conversion.h"
@@ -20,8 +21,7 @@ std::string chooseTopic(const rosbag::Bag& bag, const std::string& wanted) {
   const std::set<std::string> topics = depthTopics(bag);
   if (!wanted.empty() && topics.count(wanted) != 0) return wanted;
   if (wanted.empty() && topics.size() == 1) return *topics.begin();
-  std::string names;
-  for (const std::string& topic : topics) names += (names.empty() ? "" : ", ") + topic;
+  const std::string names = listed({topics.begin(), topics.end()});
   if (topics.empty()) throw std::runtime_error("there are no depth images (16UC1, 32FC1) in it");
   if (wanted.empty()) {
     throw std::runtime_error("there are several depth topics, choose one with --topic: " + names);
@@ -40,7 +40,7 @@ class BagSource : public FrameSource {
   BagSource(const std::string& file, const SourceOptions& options) : options_(options) {
     bag_.open(file, rosbag::bagmode::Read);
     topic_ = chooseTopic(bag_, options.topic);
-    readCameras();
+    cameras_ = cameraInfos(bag_, image_transport::getCameraInfoTopic(topic_));
     images_.addQuery(bag_, rosbag::TopicQuery(topic_));
     next_ = images_.begin();
   }
@@ -68,14 +68,6 @@ class BagSource : public FrameSource {
   }
 
  private:
-  void readCameras() {
-    rosbag::View infos(bag_, rosbag::TopicQuery(image_transport::getCameraInfoTopic(topic_)));
-    for (const rosbag::MessageInstance& message : infos) {
-      const auto info = message.instantiate<sensor_msgs::CameraInfo>();
-      if (info) cameras_[info->header.stamp] = info;
-    }
-  }
-
   /// The camera_info of the image's stamp, or else the last one before it, or else the first.
   CameraModel camera(const ros::Time& stamp, const Frame& frame) const {
     if (options_.camera) {

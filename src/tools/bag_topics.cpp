@@ -28,4 +28,15 @@ std::map<std::string, std::string> topicTypes(const rosbag::Bag& bag) {
   return types;
 }
 
+std::map<ros::Time, sensor_msgs::CameraInfoConstPtr> cameraInfos(const rosbag::Bag& bag,
+                                                                 const std::string& topic) {
+  std::map<ros::Time, sensor_msgs::CameraInfoConstPtr> infos;
+  rosbag::View messages(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& message : messages) {
+    const auto info = message.instantiate<sensor_msgs::CameraInfo>();
+    if (info) infos[info->header.stamp] = info;
+  }
+  return infos;
+}
+
 }  // namespace dominant_plane_detection

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <ros/time.h>
 #include <rosbag/bag.h>
+#include <sensor_msgs/CameraInfo.h>
 
 #include <map>
 #include <set>
@@ -13,5 +15,9 @@ std::set<std::string> depthTopics(const rosbag::Bag& bag);
 
 /// @return the type of each topic.
 std::map<std::string, std::string> topicTypes(const rosbag::Bag& bag);
+
+/// @return the camera_info on a topic, by their stamps; messages of another type are left out.
+std::map<ros::Time, sensor_msgs::CameraInfoConstPtr> cameraInfos(const rosbag::Bag& bag,
+                                                                 const std::string& topic);
 
 }  // namespace dominant_plane_detection

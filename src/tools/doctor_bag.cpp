@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bag_facts.h"
+#include "bag_topics.h"
 #include "doctor/input_rules.h"
 #include "doctor/robot_rules.h"
 #include "doctor/stamp_offset.h"
@@ -53,11 +54,7 @@ class BagExamination {
  private:
   void readCameras() {
     if (facts_.info.name.empty()) return;
-    rosbag::View infos(bag_, rosbag::TopicQuery(facts_.info.name));
-    for (const rosbag::MessageInstance& message : infos) {
-      const auto info = message.instantiate<sensor_msgs::CameraInfo>();
-      if (info) cameras_[info->header.stamp] = info;
-    }
+    cameras_ = cameraInfos(bag_, facts_.info.name);
     facts_.info.messages = cameras_.size();
   }
 

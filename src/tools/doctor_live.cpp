@@ -4,6 +4,7 @@
 #include <ros/master.h>
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 #include "detection_status.h"
 #include "doctor/topic_advice.h"
 #include "live_examination.h"
+#include "ros/topic_facts.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -31,15 +33,13 @@ void spinFor(
   }
 }
 
-/// @return the topics of planes, each below its node's name, of any node.
+/// @return [#] topics of planes, each below its node's name, of any node.
 std::size_t planeTopics() {
-  std::size_t count = 0;
-  ros::master::V_TopicInfo topics;
-  ros::master::getTopics(topics);
-  for (const auto& topic : topics) {
-    if (topic.datatype == "dominant_plane_detection/DominantPlane") ++count;
-  }
-  return count;
+  const auto topics = publishedTopics().value_or(ros::master::V_TopicInfo());
+  return static_cast<std::size_t>(
+      std::count_if(topics.begin(), topics.end(), [](const ros::master::TopicInfo& topic) {
+        return topic.datatype == "dominant_plane_detection/DominantPlane";
+      }));
 }
 
 /// @return the detections to look at; one without a name for a topic alone.

@@ -1,5 +1,6 @@
 #include "doctor_settings.h"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
@@ -11,10 +12,7 @@ namespace dominant_plane_detection {
 namespace {
 
 bool isOneOf(const std::vector<std::string>& names, const std::string& name) {
-  for (const std::string& each : names) {
-    if (each == name) return true;
-  }
-  return false;
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 bool readSwitch(const std::string& name, const std::string& value) {

@@ -34,11 +34,7 @@ const Detection* ImageEvidence::study(const DepthView& depth, const CameraModel&
 const Detection* ImageEvidence::add(const sensor_msgs::Image& image,
                                     const sensor_msgs::CameraInfoConstPtr& info,
                                     const Prior& prior) {
-  seen_.frame_id = image.header.frame_id;
-  seen_.encoding = image.encoding;
-  seen_.encoding_is_depth = isDepthEncoding(image.encoding);
-  seen_.width = static_cast<int>(image.width);
-  seen_.height = static_cast<int>(image.height);
+  dominant_plane_detection::describe(image, seen_);
   if (info && !camera_) seen_.camera = cameraInfoFacts(*info, rectified_);
   std::string error;
   const auto depth = depth_reader_.read(image, error);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "calibration/median.h"
 #include "doctor/finding.h"
 #include "doctor/stamp_offset.h"
 
@@ -84,12 +85,7 @@ InputFacts LiveInput::facts() const {
   takeTransport(published, image_subscriber_.getTopic(), facts.depth);
   facts.depth.messages = stamps_.size();
   images_.describe(facts);
-  if (!ages_.empty()) {
-    std::vector<double> ages = ages_;
-    const auto middle = ages.begin() + static_cast<std::ptrdiff_t>(ages.size() / 2);
-    std::nth_element(ages.begin(), middle, ages.end());
-    facts.age = *middle;
-  }
+  if (!ages_.empty()) facts.age = median(ages_);
   if (!settings_.points && !info_topic_.empty()) describeInfo(published, facts);
   return facts;
 }

@@ -1,6 +1,6 @@
 #include "mount_evidence.h"
 
-#include <algorithm>
+#include "calibration/median.h"
 
 namespace dominant_plane_detection {
 namespace {
@@ -8,12 +8,7 @@ namespace {
 constexpr std::size_t kLasting = 6;  // [#] images, as many as the mount is judged by
 
 /// @return 0 of nothing.
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double middle(const std::vector<double>& values) { return values.empty() ? 0.0 : median(values); }
 
 }  // namespace
 
@@ -61,8 +56,8 @@ RobotFacts MountEvidence::facts() const {
   facts.mount_is_height = watch_.isOfHeight();
   facts.planes_at_tf_height = watch_.heights().expected;
   facts.planes_elsewhere = watch_.heights().others;
-  facts.height = median(heights_);
-  facts.tf_height = median(tf_heights_);
+  facts.height = middle(heights_);
+  facts.tf_height = middle(tf_heights_);
   return facts;
 }
 

@@ -189,6 +189,21 @@ TEST(ImageRules, NowAndThenNoPlaneIsNothing) {
   EXPECT_TRUE(hasCode(study.findings(), Code::kUpsideDown)) << "3 of 13";
 }
 
+/// Half of the images without a plane are of walls, which turning them does not change.
+TEST(ImageRules, WhatHealsHalfOfTheImagesIsNotTheCause) {
+  ImageStudy study{Parameters()};
+  const Millimetres down = turned(binImage());
+  const auto wall = inMillimetres(planeDepth(binCamera(), {0.0, 0.0, -1.0}, 1.5));
+  for (int i = 0; i < 4; ++i) {
+    study.add(down.view(), binCamera());
+    study.add(wall.view(), binCamera());
+  }
+  EXPECT_EQ(study.planes(), 0U);
+  EXPECT_FALSE(hasCode(study.findings(), Code::kUpsideDown)) << "4 of 8";
+  study.add(down.view(), binCamera());
+  EXPECT_TRUE(hasCode(study.findings(), Code::kUpsideDown)) << "5 of 9";
+}
+
 /// A level camera 1.5 m up in a hall: the floor begins 3.6 m away, and a wall is at 12 m.
 Millimetres hallImage() {
   Millimetres image = inMillimetres(planeDepth(binCamera(), upOf(0.0), 1.5));
